@@ -1,0 +1,16 @@
+// Exit codes of the program, documented in docs/exit-codes.md.
+#pragma once
+
+namespace jawari::host {
+
+enum class ExitCode : int {
+    Ok = 0,
+    Usage = 2,         ///< wrong command line
+    InvalidInput = 3,  ///< a scene, preset or MIDI file says something that is not allowed
+    File = 4,          ///< a file cannot be read or written
+    Internal = 5,      ///< a defect of the program, or out of memory
+    Interrupted = 130,
+    Terminated = 143
+};
+
+}  // namespace jawari::host

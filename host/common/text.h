@@ -1,0 +1,30 @@
+// Numbers and foreign text as they appear in messages and files.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace jawari::host {
+
+/// Shortest decimal text that reads back as the same double; `nan`, `inf`, `-inf` otherwise.
+std::string shortest(double value);
+
+/// 17 significant digits: reads back as the same double and lines up with other programs' `%.17g`.
+std::string seventeen_digits(double value);
+
+/// A number spelled out completely (`12`, `-0.5`, `1e-3`, `inf`, `nan`), surrounding spaces not accepted.
+std::optional<double> parse_number(std::string_view text);
+
+/// Control characters as \xNN, so that foreign text never breaks a line or drives a terminal.
+std::string printable(std::string_view text);
+
+/// printable() in double quotes, shortened with "..." beyond `longest` bytes.
+std::string quoted(std::string_view text, std::size_t longest = 60);
+
+/// `a, b, c`
+std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
+
+}  // namespace jawari::host
