@@ -1,0 +1,12 @@
+# Compile options shared by every target of the project.
+add_library(jawari_options INTERFACE)
+target_compile_options(jawari_options INTERFACE -Wall -Wextra -Wconversion -Wshadow
+                       # Fused multiply-adds are written where they are wanted (kernels), never left to the compiler.
+                       -ffp-contract=off)
+if(JAWARI_WARNINGS_AS_ERRORS)
+  target_compile_options(jawari_options INTERFACE -Werror)
+endif()
+if(JAWARI_SANITIZE)
+  add_compile_options(-fsanitize=${JAWARI_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${JAWARI_SANITIZE})
+endif()

@@ -1,0 +1,14 @@
+// The discrete energy of a string, and its balance over one step.
+#pragma once
+
+#include "jawari/model.h"
+#include "jawari/realtime.h"
+#include "jawari/state.h"
+
+namespace jawari {
+
+/// Exact scheme: H = 1/2 mu sum_k [ (1+e)/(2w) v^2 + omega^2 q (q - h v) ] with q, v at the end of a step.
+/// Theta scheme: H = 1/2 mu sum_k (v^2 + omega^2 q^2). [J], >= 0 to rounding. Modes with w = 0 count their potential only.
+double energy(const StringModel& model, const StringState& state) JAWARI_REALTIME;
+
+}  // namespace jawari

@@ -1,0 +1,68 @@
+// The compiled scene: every coefficient that rendering needs, never changed after compile().
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "jawari/aligned.h"
+#include "jawari/description.h"
+
+namespace jawari {
+
+/// Arrays over modes have length `stride` (the mode count N padded by modes at rest); rows over contacts are `stride` apart.
+struct StringModel {
+    std::string name;
+    double length_m = 0;
+    double linear_density_kg_per_m = 0;
+    std::size_t mode_count = 0;  ///< N
+    std::size_t stride = 0;      ///< padded(N)
+
+    // -- modes
+    AlignedVector<double> omega;  ///< omega_k [rad/s]; 0 in the padding
+    AlignedVector<double> sigma;  ///< sigma_k [1/s]
+
+    // -- time step (step_coefficients.h)
+    double step_s = 0;  ///< h
+    double theta = 1;   ///< 1 for the exact scheme
+    Scheme scheme = Scheme::Exact;
+    ImpactLaw law = ImpactLaw::Signorini;
+    AlignedVector<double> carry, change;  ///< e_k = carry + change
+    AlignedVector<double> restoring;      ///< -d_k/h [1/s]
+    AlignedVector<double> mobility;       ///< w_k/mu [1/kg m]
+
+    // -- energy (energy.h): H = sum kinetic v^2 + potential q (q - h v)
+    AlignedVector<double> kinetic;      ///< mu (1+e)/(4 w), or mu/2 for the theta scheme; 0 where w = 0
+    AlignedVector<double> potential;    ///< mu omega^2/2
+    AlignedVector<double> dissipation;  ///< mu (1-e)/(4 w); for the theta scheme 2 mu sigma h; 0 where w = 0
+
+    // -- contacts
+    std::size_t contact_count = 0;             ///< contacts kept, <= those described
+    std::size_t contact_stride = 0;            ///< padded(contact_count)
+    AlignedVector<double> contact_rows;        ///< S: +phi_k(x_c) from below, -phi_k(x_c) from above; contact_count x stride
+    std::vector<double> contact_height;        ///< b_c = +-h_c [m]: gap = S q - b
+    std::vector<double> contact_restitution;   ///< e_c
+    std::vector<double> contact_position;      ///< x_c [m]
+    std::vector<Side> contact_side;
+    AlignedVector<double> compliance;          ///< A = h theta D = h theta S diag(w/mu) S^T [m/(N s)]; contact_count x contact_stride
+    std::vector<std::ptrdiff_t> contact_of_description;  ///< model index of each described contact, -1 if dropped
+
+    // -- initial state
+    AlignedVector<double> initial_displacement;  ///< q
+    AlignedVector<double> initial_velocity;      ///< backward velocity v
+    AlignedVector<double> rest_displacement;     ///< q at rest against the obstacles; where a string with non-finite state restarts
+
+    // -- probes, in the order described
+    std::vector<ProbeDescription> probes;
+    AlignedVector<double> probe_rows;  ///< phi_k(x) for displacement and velocity, zero for others; probes x stride
+};
+
+struct SceneModel {
+    double output_rate_hz = 0;
+    double contact_rate_hz = 0;
+    std::size_t steps_per_frame = 0;  ///< m = contact_rate / output_rate
+    std::vector<StringModel> strings;
+    std::size_t probe_count = 0;      ///< over all strings: outputs of render()
+};
+
+}  // namespace jawari

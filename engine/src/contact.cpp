@@ -1,0 +1,161 @@
+#include "contact.h"
+
+#include <algorithm>
+
+#include "impact_law.h"
+#include "jawari/lcp.h"
+#include "kernels.h"
+
+namespace jawari {
+namespace {
+
+ContactMoment moment_of(const StringModel& model, const ContactState& contact, std::size_t c) {
+    ContactMoment moment;
+    moment.gap = contact.gap[c];
+    moment.gap_before = contact.gap_before[c];
+    moment.approach = model.step_s * contact.gap_rate[c];
+    moment.restitution = model.contact_restitution[c];
+    moment.theta = model.theta;
+    moment.scheme = model.scheme;
+    return moment;
+}
+
+/// y_free + A lambda - y_free at one contact.
+double gap_response(const StringModel& model, const ContactState& contact, std::size_t c) {
+    const double* row = model.compliance.data() + c * model.contact_stride;
+    double response = 0;
+    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
+        const auto other = contact.candidates[i];
+        if (contact.impulse[other] > 0) response += row[other] * contact.impulse[other];
+    }
+    return response;
+}
+
+/// Scales a truncated solution by clamp(-lambda'(y_free - y_before)/(lambda' A lambda), 0, 1): impacts then do no work > 0.
+void make_passive(const StringModel& model, ContactState& contact) {
+    double linear = 0;
+    double quadratic = 0;
+    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
+        const auto c = contact.candidates[i];
+        const double impulse = contact.impulse[c];
+        if (impulse <= 0) continue;
+        linear += impulse * (contact.gap_free[c] - contact.gap_before[c]);
+        quadratic += impulse * gap_response(model, contact, c);
+    }
+    const double scale = quadratic > 0 ? std::clamp(-linear / quadratic, 0.0, 1.0) : 0.0;
+    for (std::size_t i = 0; i < contact.candidate_count; ++i) contact.impulse[contact.candidates[i]] *= scale;
+}
+
+}  // namespace
+
+void refresh_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    ContactState& contact = state.contact;
+    kernels::row_products(model.contact_count, model.stride, model.contact_rows.data(), state.displacement.data(),
+                          contact.gap.data());
+    for (std::size_t c = 0; c < model.contact_count; ++c) contact.gap[c] -= contact.height[c];
+}
+
+void move_obstacles(ContactState& contact) JAWARI_REALTIME {
+    if (contact.moving_count == 0) return;
+    std::size_t still_moving = 0;
+    for (std::size_t c = 0; c < contact.height.size(); ++c) {
+        const double rise_before = contact.height[c] - contact.height_before[c];
+        contact.height_rise_before[c] = rise_before;
+        contact.height_before[c] = contact.height[c];
+        if (contact.moving_steps[c] > 0) {
+            contact.moving_steps[c] -= 1;
+            contact.height[c] = contact.moving_steps[c] == 0 ? contact.height_target[c]
+                                                             : contact.height[c] + contact.height_rate[c];
+            still_moving += 1;
+        } else if (rise_before != 0) {
+            still_moving += 1;  // the past of a movement fades out of the two-step balance
+        }
+    }
+    contact.moving_count = still_moving;
+}
+
+void note_approach(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    kernels::row_products(model.contact_count, model.stride, model.contact_rows.data(), state.velocity.data(),
+                          state.contact.gap_rate.data());
+}
+
+void predict_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    ContactState& contact = state.contact;
+    const double h = model.step_s;
+    kernels::row_products(model.contact_count, model.stride, model.contact_rows.data(), state.velocity.data(),
+                          contact.gap_free.data());
+    for (std::size_t c = 0; c < model.contact_count; ++c) {
+        const double raised = contact.height[c] - contact.height_before[c];
+        const double rate = model.theta * contact.gap_free[c] + (1 - model.theta) * contact.gap_rate[c];
+        contact.gap_free[c] = contact.gap[c] + h * rate - raised;
+    }
+}
+
+bool select_candidates(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    ContactState& contact = state.contact;
+    contact.candidate_count = 0;
+    bool violated = false;
+    for (std::size_t c = 0; c < model.contact_count; ++c) {
+        const ContactMoment moment = moment_of(model, contact, c);
+        if (!is_candidate(model.law, moment)) continue;
+        contact.candidates[contact.candidate_count++] = static_cast<std::uint32_t>(c);
+        contact.offset[c] = contact.gap_free[c] - target_gap(model.law, moment);
+        violated = violated || contact.offset[c] < 0;
+    }
+    state.counters.candidates += contact.candidate_count;
+    return violated;
+}
+
+void clear_impulses(StringState& state) JAWARI_REALTIME {
+    std::fill(state.contact.impulse.begin(), state.contact.impulse.end(), 0.0);
+}
+
+void solve_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    ContactState& contact = state.contact;
+    Counters& counters = state.counters;
+    const std::span<const std::uint32_t> candidates{contact.candidates.data(), contact.candidate_count};
+    // Contacts that stopped being candidates carry no impulse; the others start from the last step's.
+    std::fill(contact.residual.begin(), contact.residual.end(), 0.0);
+    for (const auto c : candidates) contact.residual[c] = contact.impulse[c];
+    contact.impulse.swap(contact.residual);
+
+    const LcpOutcome outcome = solve_lcp(model.compliance, model.contact_stride, contact.offset, candidates,
+                                         contact.impulse, contact.residual, state.lcp);
+    counters.solves += 1;
+    if (outcome.finished) {
+        counters.worst_residual_m = std::max(counters.worst_residual_m, outcome.residual);
+    } else {
+        counters.truncated_solves += 1;
+        make_passive(model, contact);
+    }
+    for (const auto c : candidates) counters.impulses += contact.impulse[c] > 0 ? 1 : 0;
+}
+
+void apply_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    const ContactState& contact = state.contact;
+    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
+        const auto c = contact.candidates[i];
+        if (contact.impulse[c] <= 0) continue;
+        kernels::add_impulse(model.stride, contact.impulse[c], model.mobility.data(),
+                             model.contact_rows.data() + c * model.stride, state.velocity.data());
+    }
+}
+
+void accept_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    ContactState& contact = state.contact;
+    contact.gap_before.swap(contact.gap);
+    std::copy(contact.gap_free.begin(), contact.gap_free.end(), contact.gap.begin());
+    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
+        const auto active = contact.candidates[i];
+        const double impulse = contact.impulse[active];
+        if (impulse <= 0) continue;
+        contact.frame_impulse[active] += impulse;
+        kernels::add_scaled(model.contact_stride, impulse, model.compliance.data() + active * model.contact_stride,
+                            contact.gap.data());
+    }
+    for (const double gap : contact.gap) {
+        state.counters.worst_penetration_m = std::max(state.counters.worst_penetration_m, -gap);
+    }
+}
+
+}  // namespace jawari

@@ -1,0 +1,36 @@
+// The loops over modes, written once over a lane type (Highway) and dispatched at run time. Arrays are padded and aligned as
+// aligned.h says. Sums differ between instruction sets by rounding only.
+#pragma once
+
+#include <cstddef>
+
+namespace jawari::kernels {
+
+/// v <- carry v + change v + restoring q
+void free_velocity(std::size_t n, const double* carry, const double* change, const double* restoring, const double* q,
+                   double* v) noexcept;
+
+/// out[c] = sum_k rows[c][k] x[k]
+void row_products(std::size_t rows_count, std::size_t n, const double* rows, const double* x, double* out) noexcept;
+
+/// v <- v + scale mobility row: what an impulse or a force at one point does to the modes
+void add_impulse(std::size_t n, double scale, const double* mobility, const double* row, double* v) noexcept;
+
+/// y <- y + scale x
+void add_scaled(std::size_t n, double scale, const double* x, double* y) noexcept;
+
+/// sum_k kinetic v^2 + potential q (q - lag v)
+double energy(std::size_t n, const double* kinetic, const double* potential, double lag, const double* q,
+              const double* v) noexcept;
+
+/// sum_k weight (now x_now + before x_before)^2
+double weighted_square(std::size_t n, const double* weight, double now, const double* x_now, double before,
+                       const double* x_before) noexcept;
+
+/// True if all values are finite.
+bool all_finite(std::size_t n, const double* x) noexcept;
+
+/// Name of the instruction set in use.
+const char* instruction_set() noexcept;
+
+}  // namespace jawari::kernels

@@ -1,0 +1,253 @@
+#include "jawari/lcp.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace jawari {
+namespace {
+
+// A contact whose squared pivot is below this share of its diagonal moves together with the active ones (coincident contacts).
+constexpr double dependent_pivot = 1e-13;
+constexpr int predictor_sweeps = 2;
+
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Factor = Eigen::Map<Matrix, Eigen::Aligned, Eigen::OuterStride<>>;
+using Vector = Eigen::Map<Eigen::VectorXd>;
+
+/// The problem and its workspace, so that the stages below read as sentences.
+struct Problem {
+    std::span<const double> A;
+    std::size_t stride;
+    std::span<const double> r;
+    std::span<const std::uint32_t> candidates;
+    std::span<double> lambda;
+    std::span<double> residual;
+    LcpWorkspace& work;
+    double tolerance = 0;  ///< violations below it are rounding
+
+    [[nodiscard]] double a(std::size_t i, std::size_t j) const { return A[i * stride + j]; }
+    [[nodiscard]] Factor factor() const {
+        const auto n = static_cast<Eigen::Index>(work.active_count);
+        return {work.factor.data(), n, n, Eigen::OuterStride<>(static_cast<Eigen::Index>(work.capacity))};
+    }
+    [[nodiscard]] Vector vector(AlignedVector<double>& storage) const {
+        return {storage.data(), static_cast<Eigen::Index>(work.active_count)};
+    }
+};
+
+void predict_by_gauss_seidel(const Problem& p) {
+    for (int sweep = 0; sweep < predictor_sweeps; ++sweep) {
+        for (const auto c : p.candidates) {
+            if (p.r[c] >= 0 && p.lambda[c] == 0) continue;
+            double sum = p.r[c];
+            for (const auto other : p.candidates) {
+                if (p.lambda[other] > 0) sum += p.a(c, other) * p.lambda[other];
+            }
+            p.lambda[c] = std::max(0.0, p.lambda[c] - sum / p.a(c, c));
+        }
+    }
+}
+
+/// direction <- column of A at the active contacts, row `contact`.
+void gather_column(const Problem& p, std::size_t contact, AlignedVector<double>& column) {
+    for (std::size_t i = 0; i < p.work.active_count; ++i) column[i] = p.a(contact, p.work.active[i]);
+}
+
+/// Appends a contact to the active set and a row to the factor; false if it depends on the active ones or there is no room.
+bool append_active(const Problem& p, std::size_t contact) {
+    LcpWorkspace& work = p.work;
+    if (work.active_count == work.capacity) return false;
+    gather_column(p, contact, work.direction);
+    auto row = p.vector(work.direction);
+    p.factor().triangularView<Eigen::Lower>().solveInPlace(row);
+    const double pivot = p.a(contact, contact) - row.squaredNorm();
+    if (!(pivot > dependent_pivot * p.a(contact, contact))) return false;
+    double* factor_row = work.factor.data() + work.active_count * work.capacity;
+    std::copy_n(work.direction.data(), work.active_count, factor_row);
+    factor_row[work.active_count] = std::sqrt(pivot);
+    work.active[work.active_count++] = static_cast<std::uint32_t>(contact);
+    return true;
+}
+
+/// Keeps the first `kept` active contacts and refactors those that follow in work.active up to `count`.
+void refactor_from(const Problem& p, std::size_t kept, std::size_t count) {
+    p.work.active_count = kept;
+    for (std::size_t i = kept; i < count; ++i) {
+        const auto contact = p.work.active[i];  // read before append_active writes at or before i
+        if (!append_active(p, contact)) p.lambda[contact] = 0;
+    }
+}
+
+void remove_active(const Problem& p, std::size_t position) {
+    LcpWorkspace& work = p.work;
+    const std::size_t count = work.active_count - 1;
+    std::copy(work.active.begin() + static_cast<std::ptrdiff_t>(position) + 1,
+              work.active.begin() + static_cast<std::ptrdiff_t>(work.active_count),
+              work.active.begin() + static_cast<std::ptrdiff_t>(position));
+    refactor_from(p, position, count);
+}
+
+void solve_with_factor(const Problem& p, AlignedVector<double>& storage) {
+    auto x = p.vector(storage);
+    const auto lower = p.factor();
+    lower.triangularView<Eigen::Lower>().solveInPlace(x);
+    lower.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
+}
+
+/// solution <- -A_FF^{-1} r_F
+void solve_active(const Problem& p) {
+    for (std::size_t i = 0; i < p.work.active_count; ++i) p.work.solution[i] = -p.r[p.work.active[i]];
+    solve_with_factor(p, p.work.solution);
+}
+
+/// Solves for the active impulses exactly; contacts whose impulse is not positive leave until all are.
+void solve_and_thin(const Problem& p) {
+    LcpWorkspace& work = p.work;
+    while (work.active_count > 0) {
+        solve_active(p);
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < work.active_count; ++i) {
+            const auto c = work.active[i];
+            if (work.solution[i] > 0) {
+                work.active[kept++] = c;
+            } else {
+                p.lambda[c] = 0;
+            }
+        }
+        if (kept == work.active_count) break;
+        refactor_from(p, 0, kept);
+    }
+    for (std::size_t i = 0; i < work.active_count; ++i) p.lambda[work.active[i]] = work.solution[i];
+}
+
+void adopt_guess(const Problem& p) {
+    p.work.active_count = 0;
+    for (const auto c : p.candidates) {
+        if (p.lambda[c] > 0 && !append_active(p, c)) p.lambda[c] = 0;
+    }
+    solve_and_thin(p);
+}
+
+void update_residual(const Problem& p) {
+    for (const auto c : p.candidates) p.residual[c] = p.r[c];
+    for (std::size_t i = 0; i < p.work.active_count; ++i) {
+        const auto f = p.work.active[i];
+        const double* row = p.A.data() + f * p.stride;
+        const double impulse = p.lambda[f];
+        for (const auto c : p.candidates) p.residual[c] += row[c] * impulse;
+    }
+}
+
+constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+/// The inactive candidate that violates its constraint most, or `none`.
+std::size_t most_violated(const Problem& p) {
+    std::size_t worst = none;
+    double lowest = -p.tolerance;
+    for (const auto c : p.candidates) {
+        if (p.lambda[c] > 0 || p.residual[c] >= lowest) continue;
+        lowest = p.residual[c];
+        worst = c;
+    }
+    return worst;
+}
+
+bool is_active(const LcpWorkspace& work, std::size_t contact) {
+    const auto end = work.active.begin() + static_cast<std::ptrdiff_t>(work.active_count);
+    return std::find(work.active.begin(), end, contact) != end;
+}
+
+/// Raises the entering contact's impulse until its own residual is zero; active contacts that would turn negative leave on the
+/// way. Returns false if that takes more than the pivots left, finds no room, or the problem is infeasible.
+bool bring_in(const Problem& p, std::size_t entering, std::size_t& pivots_left) {
+    LcpWorkspace& work = p.work;
+    double violation = p.residual[entering];
+    for (; pivots_left > 0; --pivots_left) {
+        gather_column(p, entering, work.direction);
+        solve_with_factor(p, work.direction);  // active impulses change by -direction per unit of the entering one
+        double curvature = p.a(entering, entering);
+        for (std::size_t i = 0; i < work.active_count; ++i) {
+            curvature -= work.direction[i] * p.a(entering, work.active[i]);
+        }
+        const bool dependent = !(curvature > dependent_pivot * p.a(entering, entering));
+        double length = dependent ? std::numeric_limits<double>::infinity() : -violation / curvature;
+        std::size_t blocking = work.active_count;
+        for (std::size_t i = 0; i < work.active_count; ++i) {
+            if (work.direction[i] <= 0) continue;
+            const double reach = p.lambda[work.active[i]] / work.direction[i];
+            if (reach < length) {
+                length = reach;
+                blocking = i;
+            }
+        }
+        if (!std::isfinite(length)) return false;
+        for (std::size_t i = 0; i < work.active_count; ++i) {
+            double& impulse = p.lambda[work.active[i]];
+            impulse = std::max(0.0, impulse - length * work.direction[i]);
+        }
+        p.lambda[entering] += length;
+        violation += length * (dependent ? 0.0 : curvature);
+        if (blocking == work.active_count) return append_active(p, entering);
+        p.lambda[work.active[blocking]] = 0;
+        remove_active(p, blocking);
+    }
+    return false;
+}
+
+double natural_residual(const Problem& p) {
+    double worst = 0;
+    for (const auto c : p.candidates) {
+        worst = std::max(worst, std::abs(std::min(p.residual[c], p.a(c, c) * p.lambda[c])));
+    }
+    return worst;
+}
+
+}  // namespace
+
+LcpWorkspace make_lcp_workspace(std::size_t contacts, std::size_t largest_active_set) {
+    LcpWorkspace work;
+    work.capacity = std::min(contacts, largest_active_set);
+    work.active.assign(work.capacity + 1, 0);
+    work.factor.assign(work.capacity * work.capacity, 0.0);
+    work.solution.assign(work.capacity, 0.0);
+    work.direction.assign(work.capacity, 0.0);
+    return work;
+}
+
+LcpOutcome solve_lcp(std::span<const double> A, std::size_t stride, std::span<const double> r,
+                     std::span<const std::uint32_t> candidates, std::span<double> lambda, std::span<double> residual,
+                     LcpWorkspace& workspace) JAWARI_REALTIME {
+    Problem p{A, stride, r, candidates, lambda, residual, workspace};
+    double lowest = 0;
+    for (const auto c : candidates) lowest = std::min(lowest, r[c]);
+    p.tolerance = -1e-13 * lowest;
+
+    predict_by_gauss_seidel(p);
+    adopt_guess(p);
+    update_residual(p);
+
+    LcpOutcome outcome;
+    const std::size_t bound = 4 * workspace.capacity + 16;
+    std::size_t pivots_left = bound;
+    for (std::size_t entering = most_violated(p); entering != none; entering = most_violated(p)) {
+        if (!bring_in(p, entering, pivots_left)) {
+            outcome.finished = false;
+            break;
+        }
+        solve_and_thin(p);  // removes the rounding that the pivots have gathered
+        update_residual(p);
+    }
+    if (!outcome.finished) {
+        for (const auto c : candidates) {
+            if (!is_active(workspace, c)) lambda[c] = 0;
+        }
+        update_residual(p);
+    }
+    outcome.pivots = bound - pivots_left;
+    outcome.residual = natural_residual(p);
+    return outcome;
+}
+
+}  // namespace jawari

@@ -1,0 +1,64 @@
+// One contact step, stage by stage (DESIGN of the stages: docs/model.md, "The time step").
+#include <algorithm>
+
+#include "contact.h"
+#include "jawari/render.h"
+#include "kernels.h"
+#include "metering.h"
+
+namespace jawari {
+namespace {
+
+bool needs_previous_state(const StringModel& model, const StringState& state) {
+    return model.theta < 1 || state.metering == Metering::Step;
+}
+
+void remember(const StringModel& model, StringState& state) {
+    std::copy(state.velocity.begin(), state.velocity.end(), state.velocity_before.begin());
+    if (state.metering == Metering::Step) {
+        std::copy(state.displacement.begin(), state.displacement.end(), state.displacement_before.begin());
+    }
+    if (model.theta < 1) note_approach(model, state);
+}
+
+/// v_free = carry v + change v + restoring q + h (w/mu) phi(x) F
+void predict_velocity(const StringModel& model, StringState& state) {
+    kernels::free_velocity(model.stride, model.carry.data(), model.change.data(), model.restoring.data(),
+                           state.displacement.data(), state.velocity.data());
+    if (state.force != 0) {
+        kernels::add_impulse(model.stride, model.step_s * state.force, model.mobility.data(), state.force_row.data(),
+                             state.velocity.data());
+    }
+}
+
+/// q+ = q + h (theta v+ + (1 - theta) v)
+void advance_displacement(const StringModel& model, StringState& state) {
+    const double h = model.step_s;
+    kernels::add_scaled(model.stride, h * model.theta, state.velocity.data(), state.displacement.data());
+    if (model.theta < 1) {
+        kernels::add_scaled(model.stride, h * (1 - model.theta), state.velocity_before.data(),
+                            state.displacement.data());
+    }
+}
+
+}  // namespace
+
+void step(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    if (needs_previous_state(model, state)) remember(model, state);
+    move_obstacles(state.contact);
+    predict_velocity(model, state);
+    predict_gaps(model, state);
+    if (select_candidates(model, state)) {
+        solve_impulses(model, state);
+        apply_impulses(model, state);
+    } else {
+        clear_impulses(state);
+    }
+    advance_displacement(model, state);
+    if (state.metering == Metering::Step) meter_step(model, state);
+    accept_gaps(model, state);
+    state.force += state.force_rate;
+    state.counters.steps += 1;
+}
+
+}  // namespace jawari
