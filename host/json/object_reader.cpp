@@ -15,6 +15,7 @@ std::string range_text(std::optional<Range> range) {
 }
 
 std::string whole_text(std::size_t lowest, std::size_t highest) {
+    if (highest < lowest) return "none, the limit is used up";
     return "a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest);
 }
 

@@ -1,0 +1,15 @@
+// "modes" of a string: physics or tables.
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "jawari/description.h"
+#include "json/object_reader.h"
+
+namespace jawari::host {
+
+std::variant<PhysicalModes, ModeTable> read_modes(const json::Value& value, const std::string& path,
+                                                  json::Problems& problems);
+
+}  // namespace jawari::host
