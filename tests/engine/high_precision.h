@@ -1,14 +1,17 @@
-// The exact scheme's coefficients from their definitions, in 100-digit arithmetic: the oracle of step_coefficients.
+// The exact scheme's coefficients from their definitions, in 100-digit arithmetic: the oracle of
+// step_coefficients.
 #pragma once
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 namespace jawari::test {
 
-using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
+using Real =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
 
-/// q(t+h) = A q(t) - e q(t-h), A = z1 + z2, e = z1 z2, where z = exp(s h) for the two roots s of s^2 + 2 sigma s + omega^2.
-/// One hundred digits make the cancellation in d = 1 + e - A harmless: at omega h = 1e-9 it costs 18 of them.
+/// q(t+h) = A q(t) - e q(t-h), A = z1 + z2, e = z1 z2, where z = exp(s h) for the two roots s of s^2 + 2
+/// sigma s + omega^2. One hundred digits make the cancellation in d = 1 + e - A harmless: at omega h = 1e-9
+/// it costs 18 of them.
 struct Definition {
     Real A, e, d, w;
     Real damped_phase;  ///< W h, 0 when overdamped
@@ -17,7 +20,8 @@ struct Definition {
 };
 
 inline Definition definition_of(double omega_in, double sigma_in, double h_in) {
-    using boost::multiprecision::cos, boost::multiprecision::exp, boost::multiprecision::sin, boost::multiprecision::sqrt;
+    using boost::multiprecision::cos, boost::multiprecision::exp, boost::multiprecision::sin,
+        boost::multiprecision::sqrt;
     const Real omega = omega_in, sigma = sigma_in, h = h_in;
     const Real discriminant = sigma * sigma - omega * omega;
     Definition result;

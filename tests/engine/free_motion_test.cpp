@@ -1,0 +1,127 @@
+// Free motion over ten seconds, through compile() and the engine's own stepping, against the analytic
+// solution of each mode.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+
+#include "high_precision.h"
+#include "jawari/jawari.h"
+
+namespace jawari {
+namespace {
+
+using test::Real;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__OPTIMIZE__)
+constexpr std::size_t mode_stride =
+    29;  // instrumented code: every 29th mode is enough to find what it looks for
+#else
+constexpr std::size_t mode_stride = 1;
+#endif
+
+/// The 862 damped modes of lab/bass. Modes above the step's Nyquist rate, and far above it, are among them at
+/// every rate.
+Modes bass_modes() {
+    StringDescription string;
+    string.length_m = 0.863;
+    string.linear_density_kg_per_m = 0.0067;
+    PhysicalModes physical;
+    physical.count = 862;
+    physical.tension_N = 191.6;
+    physical.inharmonicity = 3.5e-5;
+    physical.inharmonicity_law = InharmonicityLaw::FirstOrder;
+    physical.damping = ValetteLoss{1.14e-3, 1.8e-5, 1.2, 0.01, 3.3e-5};
+    string.modes = physical;
+    return modes_of(string);
+}
+
+/// Tables whose omega/2pi are the modes', so that compile() sees exactly these modes, each with its own phase
+/// at t = 0.
+SceneDescription free_scene(double rate_hz) {
+    const Modes modes = bass_modes();
+    ModeTable table;
+    ModalState start;
+    for (std::size_t k = 0; k < modes.omega.size(); k += mode_stride) {
+        const double phase = 0.7 * static_cast<double>(k);
+        const double amplitude = 1e-3 / static_cast<double>(k + 1);
+        table.frequency_hz.push_back(modes.omega[k] / 6.283185307179586);
+        table.decay_per_s.push_back(modes.sigma[k]);
+        start.displacement.push_back(amplitude * std::cos(phase));
+        start.velocity.push_back(-amplitude * modes.omega[k] * std::sin(phase));
+    }
+    StringDescription string;
+    string.length_m = 0.863;
+    string.linear_density_kg_per_m = 0.0067;
+    string.modes = table;
+    string.initial.shape = start;
+    string.initial.start = Start::Exact;
+    SceneDescription scene;
+    scene.output_rate_hz = rate_hz;
+    scene.contact_rate_hz = rate_hz;
+    scene.strings = {string};
+    return scene;
+}
+
+struct Oscillation {
+    Real displacement;
+    Real amplitude;  ///< of the undamped motion with the same phase: sqrt(q0^2 + ((u0 + sigma q0)/W)^2)
+};
+
+Oscillation analytic(double omega_in, double sigma_in, const Real& t, double q0, double u0) {
+    const Real omega = omega_in, sigma = sigma_in;
+    const Real W = sqrt((omega - sigma) * (omega + sigma));
+    const Real sine_part = (u0 + sigma * q0) / W;
+    return {exp(-sigma * t) * (q0 * cos(W * t) + sine_part * sin(W * t)),
+            sqrt(q0 * Real(q0) + sine_part * sine_part)};
+}
+
+/// Largest error of a mode after ten seconds, relative to its initial amplitude.
+double worst_error_after_ten_seconds(double rate_hz) {
+    const SceneDescription scene = free_scene(rate_hz);
+    const auto& start = std::get<ModalState>(scene.strings[0].initial.shape);
+    const Result<SceneModel> compiled = compile(scene);
+    EXPECT_TRUE(compiled.ok()) << (compiled.ok() ? "" : compiled.failure().line());
+    const StringModel& model = compiled.value().strings[0];
+    EXPECT_EQ(model.mode_count, start.displacement.size());
+    StringState state = make_string_state(model);
+
+    const auto steps = static_cast<std::size_t>(std::llround(10 * rate_hz));
+    constexpr std::size_t frame = 100;
+    for (std::size_t done = 0; done < steps; done += frame)
+        advance_frame(model, state, std::min(frame, steps - done));
+    EXPECT_EQ(state.counters.steps, steps);
+
+    // h is the double nearest to 1/rate: over 2e7 steps its last half bit would show, so time is counted in
+    // steps of h.
+    const Real t = Real(model.step_s) * steps;
+    double worst = 0;
+    for (std::size_t k = 0; k < model.mode_count; ++k) {
+        const Oscillation truth =
+            analytic(model.omega[k], model.sigma[k], t, start.displacement[k], start.velocity[k]);
+        const double error =
+            static_cast<double>(abs(Real(state.displacement[k]) - truth.displacement) / truth.amplitude);
+        EXPECT_LE(error, 1e-12) << "mode " << k * mode_stride + 1 << " at " << rate_hz << " Hz";
+        worst = std::max(worst, error);
+    }
+    return worst;
+}
+
+class FreeMotion : public testing::TestWithParam<double> {};
+
+TEST_P(FreeMotion, IsExactAfterTenSeconds) {
+    const double worst = worst_error_after_ten_seconds(GetParam());
+    std::printf("free motion, 10 s at %.0f Hz: worst error %.2e of the initial amplitude\n", GetParam(),
+                worst);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rates, FreeMotion, testing::Values(44100.0, 48000.0, 96000.0, 2e6),
+                         [](const auto& rate) {
+                             return std::to_string(static_cast<long>(rate.param)) + "_Hz";
+                         });
+
+}  // namespace
+}  // namespace jawari
