@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, and renders a slapped bass line and a plucked string to out/.
+# Usage: scripts/demo.sh
+set -euo pipefail
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
+
+scripts/setup.sh
+cmake --preset release
+cmake --build --preset release --parallel "$(nproc)" --target jawari
+
+jawari=build/release/bin/jawari
+mkdir -p out
+"$jawari" render presets/demo/slap.mid --preset bass-fretted -o out/demo.wav --plot out/demo.png
+"$jawari" simulate lab/bass --out out/bass.wav --plot out/bass.png
+
+echo
+echo "Listen to: $PWD/out/demo.wav   presets/demo/slap.mid on the preset bass-fretted"
+echo "Its sound: $PWD/out/demo.png   waveform and spectrogram"
+echo "A string:  $PWD/out/bass.png   the scene lab/bass: string over its frets, probe, when which fret is struck"

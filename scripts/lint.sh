@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Checks formatting (.clang-format) of all C++ sources, then runs clang-tidy (.clang-tidy) over engine and host.
+# Usage: scripts/lint.sh [--fix-format]     --fix-format: reformat in place instead of checking
+set -euo pipefail
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
+
+fix=false
+case "${1:-}" in
+    "") ;;
+    --fix-format) fix=true ;;
+    *) echo "lint.sh: unknown argument '$1' (allowed: --fix-format)" >&2; exit 2 ;;
+esac
+
+mapfile -t sources < <(find benchmarks docs engine host tests -name '*.cpp' -o -name '*.h' | sort)
+if $fix; then
+    clang-format -i "${sources[@]}"
+    exit 0
+fi
+
+failed=0
+clang-format --dry-run --Werror "${sources[@]}" || failed=1
+((failed)) && echo "lint: formatting differs; scripts/lint.sh --fix-format" >&2
+
+cmake --preset release > /dev/null
+run-clang-tidy -quiet -p build/release -j "$(nproc)" "$PWD/(engine|host)/.*\.cpp$" > build/release/tidy.log 2>&1 || failed=1
+grep -vE '^(clang-tidy|[0-9]+ warnings? generated|Suppressed|Use -header-filter|$)' build/release/tidy.log || true
+((failed == 0)) && echo "lint: clean"
+exit "$failed"

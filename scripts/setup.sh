@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# Installs what building and testing need on Debian 12: the one list of every dependency.
+# Usage: scripts/setup.sh [--full]     --full: also what scripts/test.sh --full needs (lint, fuzzing)
+# Asks nothing; does nothing when all is there.
+set -euo pipefail
+
+packages=(
+    # -- build
+    build-essential   # g++ 12
+    cmake             # 3.25
+    ninja-build       # generator of the presets
+    pkg-config        # finds libhwy and libsndfile
+    git               # version control; the clone itself
+    # -- engine
+    libeigen3-dev     # dense linear algebra while compiling models
+    libhwy-dev        # SIMD kernels with run-time dispatch (Highway)
+    # -- program
+    libcli11-dev      # command line
+    nlohmann-json3-dev # scenes and presets
+    libsndfile1-dev   # WAV
+    libhdf5-dev       # .h5 recordings
+    gnuplot-nox       # --plot
+    fonts-dejavu-core # its labels
+    # -- tests and benchmarks
+    libgtest-dev      # GoogleTest
+    libbenchmark-dev  # Google Benchmark
+    libboost-dev      # Boost.Multiprecision: 60-digit references
+    midicsv           # independent reading of MIDI files
+    python3           # test scripts
+    python3-numpy     # reference simulations, pitch measurement
+    python3-h5py      # independent reading of .h5 recordings
+    python3-mpmath    # high-precision references
+    python3-siconos   # the published nonsmooth solver, as an oracle
+)
+packages_full=(
+    clang-format      # scripts/lint.sh
+    clang-tidy        # scripts/lint.sh
+    clang             # libFuzzer builds
+    libclang-rt-14-dev # libFuzzer and sanitizer run times
+)
+
+case "${1:-}" in
+    "") ;;
+    --full) packages+=("${packages_full[@]}") ;;
+    *) echo "setup.sh: unknown argument '$1' (allowed: --full)" >&2; exit 2 ;;
+esac
+
+if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
+    echo "setup.sh: no apt here; install the equivalents of: ${packages[*]}" >&2
+    exit 1
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+    status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2> /dev/null || true)
+    [[ "$status" == installed ]] || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then
+    echo "setup: all ${#packages[@]} packages are installed"
+    exit 0
+fi
+
+as_root=()
+if [[ $(id -u) != 0 ]]; then
+    if ! command -v sudo > /dev/null; then
+        echo "setup.sh: not root and no sudo; as root: apt-get install ${missing[*]}" >&2
+        exit 1
+    fi
+    as_root=(sudo)
+fi
+echo "setup: installing ${missing[*]}"
+apt_get() {
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 "$@" < /dev/null
+}
+apt_get update -qq
+apt_get install -y -qq --no-install-recommends "${missing[@]}"

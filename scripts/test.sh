@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# Builds everything and runs all tests. Usage: scripts/test.sh [--full]
+#   --full: also a build with warnings as errors, lint, the tests under address, undefined-behaviour and thread
+#           sanitizers, and each fuzz target for ten seconds.
+# Every stage runs even if one before it failed; the summaries of all test runs close the output.
+set -uo pipefail
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." || exit 1
+
+full=false
+case "${1:-}" in
+    "") ;;
+    --full) full=true ;;
+    *) echo "test.sh: unknown argument '$1' (allowed: --full)" >&2; exit 2 ;;
+esac
+
+jobs=$(nproc)
+export CTEST_PARALLEL_LEVEL=$jobs
+export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1  # tests run side by side; numpy and Siconos must not multiply them
+export UBSAN_OPTIONS=print_stacktrace=1
+logs=$(mktemp -d) || exit 1
+trap 'rm -rf "$logs"' EXIT
+stages=()     # one line each
+test_runs=()  # ctest's closing lines of each test run
+failed=0
+
+# stage NAME COMMAND...: runs it, keeps its output, notes failure and time.
+stage() {
+    local name=$1 start=$SECONDS
+    shift
+    printf '\n== %s\n' "$name"
+    if "$@" 2>&1 | tee "$logs/last"; then
+        stages+=("$name: passed, $((SECONDS - start)) s")
+    else
+        stages+=("$name: FAILED, $((SECONDS - start)) s")
+        failed=1
+        return 1
+    fi
+}
+
+build() {
+    cmake --preset "$1" && cmake --build --preset "$1" --parallel "$jobs"
+}
+
+# tests PRESET CTEST-ARGUMENTS...: a test run whose closing lines are repeated at the end.
+tests() {
+    local preset=$1
+    shift
+    stage "tests ($preset)" ctest --preset "$preset" --no-tests=error "$@"
+    test_runs+=("" "$preset:" "$(sed -n '/% tests passed/,$p' "$logs/last")")
+}
+
+# Each target starts from its seeds and a fresh corpus; a crash leaves its input in build/fuzz/.
+fuzz() {
+    local target
+    for target in build/fuzz/bin/fuzz_*; do
+        local name=${target##*/fuzz_}
+        local corpus=$logs/corpus_$name
+        mkdir -p "$corpus"
+        echo "-- $name"
+        "$target" -max_total_time=10 -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 -verbosity=0 \
+            -artifact_prefix="build/fuzz/$name-" "$corpus" "build/fuzz/seeds/$name" || return 1
+    done
+}
+
+setup_arguments=()
+$full && setup_arguments=(--full)
+stage "setup" scripts/setup.sh "${setup_arguments[@]}" || exit 1
+stage "build (release)" build release && tests release
+
+if $full; then
+    stage "build (dev: warnings are errors)" build dev
+    stage "lint" scripts/lint.sh
+    # Oracles and soaks check numbers, which the release run has done; here only memory and threads are at stake.
+    stage "build (asan-ubsan)" build asan-ubsan && tests asan-ubsan -LE 'peers|long|examples'
+    stage "build (tsan)" build tsan && tests tsan -LE 'peers|long|examples'
+    stage "build (fuzz)" build fuzz && stage "fuzzing" fuzz
+fi
+
+printf '\n== Summary (%d min %d s)\n' $((SECONDS / 60)) $((SECONDS % 60))
+printf '%s\n' "${stages[@]}" "${test_runs[@]}"
+exit "$failed"
