@@ -8,7 +8,6 @@ using json::ObjectReader;
 using json::Problems;
 using json::Value;
 
-using Damping = std::variant<NoLoss, ValetteLoss, DecayTimePoints>;
 enum class DampingModel { None, Valette, DecayTimes };
 
 ValetteLoss read_valette(const Value& value, const std::string& path, Problems& problems) {
@@ -43,6 +42,8 @@ DecayTimePoints read_decay_times(const Value& value, const std::string& path, Pr
     return decay;
 }
 
+}  // namespace
+
 /// The model decides which other keys are allowed, so its word is read first, whatever the others are.
 Damping read_damping(const Value& value, const std::string& path, Problems& problems) {
     ObjectReader reader(value, path,
@@ -62,6 +63,8 @@ Damping read_damping(const Value& value, const std::string& path, Problems& prob
     ObjectReader(value, path, {"model"}, problems);
     return NoLoss{};
 }
+
+namespace {
 
 PhysicalModes read_physical(const Value& value, const std::string& path, Problems& problems) {
     ObjectReader reader(value, path, {"count", "tension_N", "inharmonicity", "inharmonicity_law", "damping"},
