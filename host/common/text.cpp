@@ -54,6 +54,13 @@ std::string quoted(std::string_view text, std::size_t longest) {
     return '"' + printable(text.substr(0, end)) + "...\"";
 }
 
+std::string lower_case(std::string_view text) {
+    std::string result(text);
+    for (char& c : result)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return result;
+}
+
 std::string join(const std::vector<std::string>& words, std::string_view separator) {
     std::string result;
     for (const auto& word : words) {

@@ -24,6 +24,9 @@ std::string printable(std::string_view text);
 /// printable() in double quotes, shortened with "..." beyond `longest` bytes.
 std::string quoted(std::string_view text, std::size_t longest = 60);
 
+/// ASCII letters only.
+std::string lower_case(std::string_view text);
+
 /// `a, b, c`
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
 

@@ -1,0 +1,70 @@
+// jawari: reads the command line and runs one subcommand. Every failure becomes one line and an exit code.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "common/command.h"
+#include "common/interrupt.h"
+#include "simulate/simulate_command.h"
+
+namespace jawari::host {
+namespace {
+
+constexpr const char* footer =
+    "Examples:\n"
+    "  jawari simulate lab/bass --plot bass.svg\n"
+    "  jawari simulate my-scene.json --out probes.csv --stats -\n"
+    "\n"
+    "Exit codes: 0 done; 2 wrong command line; 3 invalid input file; 4 a file cannot be read or written;\n"
+    "5 internal error; 130 interrupted; 143 terminated. Every failure prints one line on standard error.";
+
+MaybeError usage(const CLI::App& app, const CLI::ParseError& problem) {
+    std::string message = problem.what();
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    const auto parsed = app.get_subcommands();
+    const std::string subcommand = parsed.empty() ? "" : parsed.front()->get_name() + " ";
+    return Error{ExitCode::Usage, message + "; see jawari " + subcommand + "--help"};
+}
+
+MaybeError run(int argc, char** argv, int& help_exit_code) {
+    CLI::App app{"Strings that strike things: simulates strings against frets, necks and bridges.", "jawari"};
+    app.footer(footer);
+    app.set_version_flag("--version", "jawari " JAWARI_VERSION);
+    app.require_subcommand(1);
+    Command command;
+    add_simulate_command(app, command);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& help) {
+        help_exit_code = app.exit(help);
+        return std::nullopt;
+    } catch (const CLI::ParseError& problem) {
+        return usage(app, problem);
+    }
+    return command();
+}
+
+int guarded_main(int argc, char** argv) {
+    install_signal_handlers();
+    MaybeError error;
+    int exit_code = 0;
+    try {
+        error = run(argc, argv, exit_code);
+    } catch (const std::bad_alloc&) {
+        error = Error{ExitCode::Internal, "jawari: out of memory"};
+    } catch (const std::exception& problem) {
+        error = Error{ExitCode::Internal, std::string("jawari: internal error: ") + problem.what()};
+    }
+    if (!error) return exit_code;
+    report(*error);
+    return static_cast<int>(error->code);
+}
+
+}  // namespace
+}  // namespace jawari::host
+
+int main(int argc, char** argv) {
+    return jawari::host::guarded_main(argc, argv);
+}
