@@ -9,8 +9,12 @@ namespace jawari::host {
 
 std::string shortest(double value) {
     if (std::isnan(value)) return "nan";
-    std::array<char, 32> buffer{};
-    const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+    std::array<char, 64> buffer{};
+    char* const end = buffer.data() + buffer.size();
+    // Rates read better as 2000000 than as 2e+06.
+    const bool plain = value == 0 || (std::abs(value) >= 1e-4 && std::abs(value) < 1e15);
+    const auto result = plain ? std::to_chars(buffer.data(), end, value, std::chars_format::fixed)
+                              : std::to_chars(buffer.data(), end, value);
     return {buffer.data(), result.ptr};
 }
 

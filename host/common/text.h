@@ -9,7 +9,8 @@
 
 namespace jawari::host {
 
-/// Shortest decimal text that reads back as the same double; `nan`, `inf`, `-inf` otherwise.
+/// Shortest decimal text that reads back as the same double, without exponent where that is readable; `nan`,
+/// `inf`, `-inf` otherwise.
 std::string shortest(double value);
 
 /// 17 significant digits: reads back as the same double and lines up with other programs' `%.17g`.

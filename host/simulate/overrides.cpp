@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/text.h"
+#include "scene/words.h"
 
 namespace jawari::host {
 
@@ -15,11 +16,17 @@ double nearest_contact_rate(const SceneDescription& scene) {
 }
 
 Error explain_contact_rate(const Failure& failure, const Overrides& overrides, const Scene& scene) {
-    if (overrides.contact_rate_hz) return usage_error("--contact-rate", failure.value, failure.allowed);
+    const std::string nearest = shortest(nearest_contact_rate(scene.description));
+    if (overrides.contact_rate_hz)
+        return usage_error("--contact-rate", shortest(*overrides.contact_rate_hz),
+                           failure.allowed.starts_with("at most")
+                               ? failure.allowed
+                               : "an integer multiple of the output rate " +
+                                     shortest(scene.description.output_rate_hz) + ", the nearest being " +
+                                     nearest);
     return usage_error("--output-rate", shortest(scene.description.output_rate_hz),
                        "a rate that divides contact_rate_hz " + shortest(scene.description.contact_rate_hz) +
-                           " of " + scene.file + ", or together with --contact-rate " +
-                           shortest(nearest_contact_rate(scene.description)));
+                           " of " + scene.file + ", or together with --contact-rate " + nearest);
 }
 
 }  // namespace
@@ -51,7 +58,8 @@ Error explain(const Failure& failure, const Overrides& overrides, const Scene& s
         return usage_error("--output-rate", failure.value, failure.allowed);
     if (failure.place == "theta" && overrides.theta)
         return usage_error("--theta", failure.value, failure.allowed);
-    if (failure.place == "law" && overrides.law) return usage_error("--law", failure.value, failure.allowed);
+    if (failure.place == "law" && overrides.law)
+        return usage_error("--law", word(scene.description.law), failure.allowed);
     if (failure.place == "law" && overrides.scheme)
         return usage_error("--scheme", "theta",
                            "for scenes with the law newton, or together with --law newton");

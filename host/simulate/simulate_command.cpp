@@ -36,7 +36,7 @@ std::string footer() {
            "  jawari simulate lab/bass --out bass.csv --stats bass.json     probes and statistics\n"
            "  jawari simulate lab/bass --law signorini --plot bass.svg      pictures\n"
            "  jawari simulate lab/one-contact --output-rate 48000 --contact-rate 2016000 --out one.wav\n"
-           "  jawari simulate lab/fretless --duration 0.01 --out - | head   CSV on standard output\n\n"
+           "  jawari simulate lab/fretless --duration 0.01 --out - > probes.csv\n\n"
            "Exit codes: 0 done; 2 wrong command line; 3 invalid scene; 4 a file cannot be read or written;\n"
            "5 internal error; 130 interrupted; 143 terminated.";
 }

@@ -88,8 +88,8 @@ std::string line(const char* format, Values... values) {
 }
 
 std::string scheme_text(const SimulationStats& stats) {
-    if (stats.settings.scheme == Scheme::Exact) return "exact";
-    return line("theta = %g", stats.settings.theta);
+    if (stats.settings.scheme == Scheme::Exact) return "exact scheme";
+    return line("theta scheme with theta = %g", stats.settings.theta);
 }
 
 }  // namespace
@@ -117,7 +117,7 @@ std::string stats_summary(const SimulationStats& stats) {
     for (const StringStats& string : stats.strings)
         text += line("string    %.200s: %zu modes, %zu contacts\n", string.name.c_str(), string.modes,
                      string.contacts);
-    text += line("settings  %s scheme, %s law, %g Hz contact rate, %g Hz output rate\n",
+    text += line("settings  %s, %s law, contact rate %.12g Hz, output rate %.12g Hz\n",
                  scheme_text(stats).c_str(), word(stats.settings.law).c_str(), stats.settings.contact_rate_hz,
                  stats.settings.output_rate_hz);
     text += line("sound     %g s in %llu rows\n", stats.sound_s, static_cast<unsigned long long>(stats.rows));
