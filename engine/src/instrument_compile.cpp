@@ -64,10 +64,10 @@ std::size_t modes_up_to(double limit_hz, double first_partial_hz, double inharmo
 
 std::vector<ContactDescription> frets_beyond(double length_m, const FretsDescription& frets,
                                              std::size_t fret) {
-    const double stop_height = fret == 0 ? 0.0 : frets.heights_m[fret - 1];
+    const double stop_height = fret == 0 ? 0.0 : frets.height_m[fret - 1];
     std::vector<double> heights;
-    for (std::size_t j = fret + 1; j <= frets.heights_m.size(); ++j) {
-        heights.push_back(frets.heights_m[j - 1] - stop_height * speaking_length(1, j - fret));
+    for (std::size_t j = fret + 1; j <= frets.height_m.size(); ++j) {
+        heights.push_back(frets.height_m[j - 1] - stop_height * speaking_length(1, j - fret));
     }
     return equal_temperament_frets(length_m, heights, frets.restitution);
 }
@@ -141,7 +141,7 @@ void calibrate_finger(StoppedStringModel& stopped, const InstrumentModel& instru
         state.force = trial_force_N * shape[i];
         state.force_rate =
             trial_force_N * (shape[i + 1] - shape[i]) / static_cast<double>(instrument.steps_per_frame);
-        advance_frame(model, state, instrument.steps_per_frame);
+        advance_frame(model, state);
         double lift_m = 0;
         for (std::size_t k = 0; k < model.stride; ++k) lift_m += stopped.pluck_row[k] * state.displacement[k];
         height_m = std::max(height_m, lift_m);
@@ -250,7 +250,7 @@ Result<InstrumentModel> compile_instrument(const InstrumentDescription& instrume
         InstrumentStringModel& string = model.strings.emplace_back();
         string.name = instrument.strings[s].name;
         string.open_note = instrument.strings[s].open_note;
-        for (std::size_t fret = 0; fret <= instrument.frets.heights_m.size(); ++fret) {
+        for (std::size_t fret = 0; fret <= instrument.frets.height_m.size(); ++fret) {
             auto stopped = compile_stopped(instrument, model, s, fret);
             if (!stopped) return stopped.failure();
             string.stopped.push_back(std::move(stopped.value()));

@@ -59,16 +59,16 @@ Check check_string(const std::string& place, const InstrumentStringDescription& 
 
 /// Pressing fret f must leave every later fret below the line from its top to the bridge.
 Check check_frets(const FretsDescription& frets) {
-    if (auto failure = check_count("frets.heights_m", frets.heights_m.size(), 0, limits::frets))
+    if (auto failure = check_count("frets.height_m", frets.height_m.size(), 0, limits::frets))
         return failure;
     if (auto failure = check("frets.restitution", frets.restitution, 0, 1)) return failure;
-    for (std::size_t j = 0; j < frets.heights_m.size(); ++j) {
-        const double height = frets.heights_m[j];
-        const std::string place = indexed("frets.heights_m", j);
+    for (std::size_t j = 0; j < frets.height_m.size(); ++j) {
+        const double height = frets.height_m[j];
+        const std::string place = indexed("frets.height_m", j);
         if (!(height >= -0.1)) return Failure{place, printed(height), "-0.1 or more"};
         double lowest_line = 0;
         for (std::size_t f = 0; f < j; ++f) {
-            const double line = frets.heights_m[f] * speaking_length(1, j - f);
+            const double line = frets.height_m[f] * speaking_length(1, j - f);
             lowest_line = std::min(lowest_line, line);
         }
         if (!(height < lowest_line)) {
@@ -128,12 +128,12 @@ std::optional<Failure> validate(const InstrumentDescription& instrument, double 
     double shortest_m = instrument.strings[0].length_m;
     for (std::size_t i = 0; i < strings; ++i) {
         if (auto failure = check_string(indexed("strings", i), instrument.strings[i],
-                                        instrument.frets.heights_m.size())) {
+                                        instrument.frets.height_m.size())) {
             return failure;
         }
         shortest_m = std::min(shortest_m, instrument.strings[i].length_m);
     }
-    shortest_m = speaking_length(shortest_m, instrument.frets.heights_m.size());
+    shortest_m = speaking_length(shortest_m, instrument.frets.height_m.size());
     if (auto failure = check_pluck(instrument.pluck, shortest_m)) return failure;
     return check_pickups(instrument.pickups, shortest_m);
 }

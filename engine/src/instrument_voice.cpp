@@ -97,7 +97,7 @@ double advance_voice(const InstrumentModel& model, const InstrumentStringModel& 
                      Counters& finished) JAWARI_REALTIME {
     const StringModel& coefficients = string_model(string, voice);
     set_finger_force(model, voice);
-    advance_frame(coefficients, voice.string, model.steps_per_frame);
+    advance_frame(coefficients, voice.string);
     voice.age += 1;
     double output = 0;
     kernels::row_products(1, coefficients.stride, string.stopped[voice.fret].output_row.data(),

@@ -1,0 +1,27 @@
+// Preset files ("jawari.preset/1", docs/preset-format.md) and built-in instruments.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/error.h"
+#include "jawari/instrument_description.h"
+
+namespace jawari::host {
+
+struct Preset {
+    std::string file;  ///< the file's path or the built-in name, for messages
+    InstrumentDescription instrument;
+};
+
+/// Reads a preset's text; every problem names `file`, the path inside it, the value and what is allowed.
+/// Ranges of physical values are checked by compile_instrument(), which spells its places like this format.
+Outcome<Preset> read_preset(const std::string& text, const std::string& file);
+
+/// `argument`: a file, or the name of a built-in instrument if no file of that name exists.
+Outcome<Preset> load_preset(const std::string& argument);
+
+/// Sorted.
+std::vector<std::string> builtin_preset_names();
+
+}  // namespace jawari::host

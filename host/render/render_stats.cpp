@@ -1,0 +1,101 @@
+#include "render/render_stats.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "common/text.h"
+
+namespace jawari::host {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double sound_s(const RenderStats& stats) {
+    return static_cast<double>(stats.score.frames) / stats.output_rate_hz;
+}
+
+Json or_null(std::optional<double> value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+unsigned long long count(std::uint64_t value) {
+    return value;
+}
+
+template <class... Values>
+std::string line(const char* format, Values... values) {
+    std::array<char, 400> text{};
+    std::snprintf(text.data(), text.size(), format, values...);
+    return text.data();
+}
+
+}  // namespace
+
+std::optional<double> real_time_factor(const RenderStats& stats) {
+    if (stats.score.render_cpu_s <= 0 || stats.score.frames == 0) return std::nullopt;
+    return sound_s(stats) / stats.score.render_cpu_s;
+}
+
+std::optional<double> peak_dbfs(const RenderStats& stats) {
+    if (stats.score.peak <= 0) return std::nullopt;
+    return 20 * std::log10(stats.score.peak);
+}
+
+std::string stats_json(const RenderStats& stats) {
+    const InstrumentCounters& notes = stats.score.notes;
+    const Counters& contacts = stats.score.contacts;
+    const Json json{{"schema", "jawari.render-stats/1"},
+                    {"jawari_version", JAWARI_VERSION},
+                    {"midi", stats.midi},
+                    {"preset", stats.preset},
+                    {"output_rate_hz", stats.output_rate_hz},
+                    {"contact_rate_hz", stats.contact_rate_hz},
+                    {"frames", stats.score.frames},
+                    {"sound_s", sound_s(stats)},
+                    {"cpu_compile_s", stats.cpu_compile_s},
+                    {"cpu_render_s", stats.score.render_cpu_s},
+                    {"cpu_output_s", stats.cpu_output_s},
+                    {"real_time_factor", or_null(real_time_factor(stats))},
+                    {"peak_dbfs", or_null(peak_dbfs(stats))},
+                    {"clipped_samples", stats.score.clipped},
+                    {"notes", notes.notes},
+                    {"ignored_notes", notes.ignored_notes},
+                    {"stolen_notes", notes.stolen_notes},
+                    {"delayed_notes", notes.delayed_notes},
+                    {"faded_voices", notes.faded_voices},
+                    {"ignored_pitch_bends", stats.pitch_bends},
+                    {"steps", contacts.steps},
+                    {"candidates", contacts.candidates},
+                    {"impulses", contacts.impulses},
+                    {"solves", contacts.solves},
+                    {"truncated_solves", contacts.truncated_solves},
+                    {"nonfinite_resets", contacts.nonfinite_resets},
+                    {"lcp_residual_max_m", contacts.worst_residual_m},
+                    {"worst_penetration_m", contacts.worst_penetration_m}};
+    // Names of files may hold any bytes; those that are no UTF-8 become replacement characters.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string stats_summary(const RenderStats& stats) {
+    const InstrumentCounters& notes = stats.score.notes;
+    const Counters& contacts = stats.score.contacts;
+    std::string text = line("sound     %g s at %g Hz, contact rate %g Hz", sound_s(stats),
+                            stats.output_rate_hz, stats.contact_rate_hz);
+    if (const auto peak = peak_dbfs(stats)) text += line(", peak %.1f dBFS", *peak);
+    text += line("\nnotes     %llu played, %llu ignored, %llu taken from their string by another\n",
+                 count(notes.notes), count(notes.ignored_notes), count(notes.stolen_notes));
+    text += line("contact   %llu impulses in %llu steps, worst penetration %.3g m\n",
+                 count(contacts.impulses), count(contacts.steps), contacts.worst_penetration_m);
+    if (contacts.truncated_solves + contacts.nonfinite_resets > 0) {
+        text += line("caution   %llu truncated solves, %llu resets of a state that was not finite\n",
+                     count(contacts.truncated_solves), count(contacts.nonfinite_resets));
+    }
+    text += line("CPU       %.3g s compile, %.3g s render", stats.cpu_compile_s, stats.score.render_cpu_s);
+    if (const auto factor = real_time_factor(stats)) text += line(", %.3g times real time", *factor);
+    return text + "\n";
+}
+
+}  // namespace jawari::host
