@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "compile_skipping.h"
 #include "jawari/modes.h"
 #include "jawari/step_coefficients.h"
 #include "kernels.h"
@@ -39,8 +40,7 @@ void set_energy_weights(StringModel& model, std::size_t k, const StepCoefficient
         model.kinetic[k] = mu / 2;
         model.dissipation[k] = 2 * mu * model.sigma[k] * h;
     } else if (step.mobility > 0) {
-        const double e = std::exp(-2 * model.sigma[k] * h);
-        model.kinetic[k] = mu * (1 + e) / (4 * step.mobility);
+        model.kinetic[k] = mu * exact_factors(model.omega[k], model.sigma[k], h).s / (8 * step.mobility);
         model.dissipation[k] = -mu * std::expm1(-2 * model.sigma[k] * h) / (4 * step.mobility);
     }
 }
@@ -50,6 +50,7 @@ void set_step(StringModel& model, const SceneDescription& scene) {
     model.theta = scene.scheme == Scheme::Theta ? scene.theta : 1.0;
     model.law = scene.law;
     model.step_s = 1 / scene.contact_rate_hz;
+    model.steps_per_frame = static_cast<std::size_t>(std::lround(scene.contact_rate_hz / scene.output_rate_hz));
     for (auto* array : {&model.carry, &model.change, &model.restoring, &model.mobility, &model.kinetic,
                         &model.potential, &model.dissipation}) {
         array->assign(model.stride, 0.0);
@@ -118,7 +119,7 @@ void set_compliance(StringModel& model) {
         std::fill(response.begin(), response.end(), 0.0);
         kernels::add_impulse(model.stride, model.step_s * model.theta, model.mobility.data(),
                              model.contact_rows.data() + c * model.stride, response.data());
-        kernels::row_products(model.contact_count, model.stride, model.contact_rows.data(), response.data(),
+        kernels::row_products(model.contact_count, model.stride, model.stride, model.contact_rows.data(), response.data(),
                               model.compliance.data() + c * model.contact_stride);
     }
 }
@@ -187,6 +188,7 @@ Result<StringModel> compile_string(const StringDescription& string, const SceneD
     set_step(model, scene);
     if (auto failure = set_contacts(model, string, place)) return *failure;
     set_compliance(model);
+    if (scene.scheme == Scheme::Exact) set_skipping(model);
     if (!set_initial_state(model, string.initial)) {
         return Failure{place + ".contacts", "obstacles from both sides", "obstacles between which the string fits"};
     }
@@ -205,13 +207,13 @@ Result<SceneModel> compile(const SceneDescription& scene) {
     SceneModel model;
     model.output_rate_hz = scene.output_rate_hz;
     model.contact_rate_hz = scene.contact_rate_hz;
-    model.steps_per_frame = static_cast<std::size_t>(std::lround(scene.contact_rate_hz / scene.output_rate_hz));
     for (std::size_t i = 0; i < scene.strings.size(); ++i) {
         auto string = compile_string(scene.strings[i], scene, "strings[" + std::to_string(i) + "]");
         if (!string) return string.failure();
         model.probe_count += string.value().probes.size();
         model.strings.push_back(std::move(string.value()));
     }
+    model.steps_per_frame = model.strings.front().steps_per_frame;
     return model;
 }
 

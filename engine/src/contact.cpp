@@ -46,13 +46,41 @@ void make_passive(const StringModel& model, ContactState& contact) {
     for (std::size_t i = 0; i < contact.candidate_count; ++i) contact.impulse[contact.candidates[i]] *= scale;
 }
 
+/// out <- S x at the near contacts.
+void near_products(const StringModel& model, StringState& state, const AlignedVector<double>& x,
+                   AlignedVector<double>& out) {
+    const ContactState& contact = state.contact;
+    kernels::indexed_row_products(contact.near.data(), contact.near_count, state.active_modes, model.stride,
+                                  model.contact_rows.data(), x.data(), out.data());
+}
+
 }  // namespace
 
-void refresh_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
+void place_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
-    kernels::row_products(model.contact_count, model.stride, model.contact_rows.data(), state.displacement.data(),
-                          contact.gap.data());
-    for (std::size_t c = 0; c < model.contact_count; ++c) contact.gap[c] -= contact.height[c];
+    near_products(model, state, state.displacement, contact.gap);
+    near_products(model, state, state.velocity, contact.gap_rate);
+    for (std::size_t i = 0; i < contact.near_count; ++i) {
+        const auto c = contact.near[i];
+        contact.gap_before[c] = contact.gap[c] - model.step_s * contact.gap_rate[c] - contact.height_before[c];
+        contact.gap[c] -= contact.height[c];
+    }
+}
+
+void join_step(const StringModel& model, StringState& state, std::size_t c) JAWARI_REALTIME {
+    ContactState& contact = state.contact;
+    const auto row_product = [&](const AlignedVector<double>& x) {
+        const auto index = static_cast<std::uint32_t>(c);
+        kernels::indexed_row_products(&index, 1, state.active_modes, model.stride, model.contact_rows.data(), x.data(),
+                                      contact.residual.data());
+        return contact.residual[c];
+    };
+    contact.gap[c] = row_product(state.displacement) - contact.height[c];
+    contact.gap_before[c] = contact.gap[c] - model.step_s * row_product(state.velocity_before);
+    contact.gap_free[c] = contact.gap[c] + model.step_s * row_product(state.velocity);
+    contact.impulse[c] = 0;
+    contact.near[contact.near_count++] = static_cast<std::uint32_t>(c);
+    contact.is_near[c] = 1;
 }
 
 void move_obstacles(ContactState& contact) JAWARI_REALTIME {
@@ -75,16 +103,15 @@ void move_obstacles(ContactState& contact) JAWARI_REALTIME {
 }
 
 void note_approach(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    kernels::row_products(model.contact_count, model.stride, model.contact_rows.data(), state.velocity.data(),
-                          state.contact.gap_rate.data());
+    near_products(model, state, state.velocity_before, state.contact.gap_rate);
 }
 
 void predict_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
     const double h = model.step_s;
-    kernels::row_products(model.contact_count, model.stride, model.contact_rows.data(), state.velocity.data(),
-                          contact.gap_free.data());
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
+    near_products(model, state, state.velocity, contact.gap_free);
+    for (std::size_t i = 0; i < contact.near_count; ++i) {
+        const auto c = contact.near[i];
         const double raised = contact.height[c] - contact.height_before[c];
         const double rate = model.theta * contact.gap_free[c] + (1 - model.theta) * contact.gap_rate[c];
         contact.gap_free[c] = contact.gap[c] + h * rate - raised;
@@ -95,30 +122,29 @@ bool select_candidates(const StringModel& model, StringState& state) JAWARI_REAL
     ContactState& contact = state.contact;
     contact.candidate_count = 0;
     bool violated = false;
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
+    for (std::size_t i = 0; i < contact.near_count; ++i) {
+        const auto c = contact.near[i];
         const ContactMoment moment = moment_of(model, contact, c);
-        if (!is_candidate(model.law, moment)) continue;
-        contact.candidates[contact.candidate_count++] = static_cast<std::uint32_t>(c);
+        if (!is_candidate(model.law, moment)) {
+            contact.impulse[c] = 0;
+            continue;
+        }
+        contact.candidates[contact.candidate_count++] = c;
         contact.offset[c] = contact.gap_free[c] - target_gap(model.law, moment);
         violated = violated || contact.offset[c] < 0;
     }
-    state.counters.candidates += contact.candidate_count;
     return violated;
 }
 
 void clear_impulses(StringState& state) JAWARI_REALTIME {
-    std::fill(state.contact.impulse.begin(), state.contact.impulse.end(), 0.0);
+    ContactState& contact = state.contact;
+    for (std::size_t i = 0; i < contact.near_count; ++i) contact.impulse[contact.near[i]] = 0;
 }
 
 void solve_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
     Counters& counters = state.counters;
     const std::span<const std::uint32_t> candidates{contact.candidates.data(), contact.candidate_count};
-    // Contacts that stopped being candidates carry no impulse; the others start from the last step's.
-    std::fill(contact.residual.begin(), contact.residual.end(), 0.0);
-    for (const auto c : candidates) contact.residual[c] = contact.impulse[c];
-    contact.impulse.swap(contact.residual);
-
     const LcpOutcome outcome = solve_lcp(model.compliance, model.contact_stride, contact.offset, candidates,
                                          contact.impulse, contact.residual, state.lcp);
     counters.solves += 1;
@@ -128,7 +154,6 @@ void solve_impulses(const StringModel& model, StringState& state) JAWARI_REALTIM
         counters.truncated_solves += 1;
         make_passive(model, contact);
     }
-    for (const auto c : candidates) counters.impulses += contact.impulse[c] > 0 ? 1 : 0;
 }
 
 void apply_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME {
@@ -143,18 +168,25 @@ void apply_impulses(const StringModel& model, StringState& state) JAWARI_REALTIM
 
 void accept_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
-    contact.gap_before.swap(contact.gap);
-    std::copy(contact.gap_free.begin(), contact.gap_free.end(), contact.gap.begin());
+    for (std::size_t i = 0; i < contact.near_count; ++i) {
+        const auto c = contact.near[i];
+        contact.gap_before[c] = contact.gap[c];
+        contact.gap[c] = contact.gap_free[c];
+    }
     for (std::size_t i = 0; i < contact.candidate_count; ++i) {
         const auto active = contact.candidates[i];
         const double impulse = contact.impulse[active];
         if (impulse <= 0) continue;
         contact.frame_impulse[active] += impulse;
-        kernels::add_scaled(model.contact_stride, impulse, model.compliance.data() + active * model.contact_stride,
-                            contact.gap.data());
+        state.counters.impulses += 1;
+        const double* response = model.compliance.data() + active * model.contact_stride;
+        for (std::size_t j = 0; j < contact.near_count; ++j) {
+            contact.gap[contact.near[j]] += response[contact.near[j]] * impulse;
+        }
     }
-    for (const double gap : contact.gap) {
-        state.counters.worst_penetration_m = std::max(state.counters.worst_penetration_m, -gap);
+    state.counters.candidates += contact.candidate_count;
+    for (std::size_t i = 0; i < contact.near_count; ++i) {
+        state.counters.worst_penetration_m = std::max(state.counters.worst_penetration_m, -contact.gap[contact.near[i]]);
     }
 }
 

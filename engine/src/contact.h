@@ -9,13 +9,19 @@
 
 namespace jawari {
 
-/// gap <- S q - b, free of the rounding that steps add up.
-void refresh_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME;
+inline bool is_excited(const StringState& state) { return state.force != 0 || state.force_rate != 0; }
+
+/// gap <- S q - b and gap_before <- the same one step earlier, for the near contacts.
+void place_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME;
+
+/// Contact `c` becomes near in the middle of a step: its gap, gap_before and gap_free are computed. velocity holds v_free,
+/// velocity_before the step's v.
+void join_step(const StringModel& model, StringState& state, std::size_t c) JAWARI_REALTIME;
 
 /// Moves the obstacles that are on their way by one step.
 void move_obstacles(ContactState& contact) JAWARI_REALTIME;
 
-/// gap_rate <- S v at the step's start; needed by the theta scheme only.
+/// gap_rate <- S v of the step's start at the near contacts; needed by the theta scheme only.
 void note_approach(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
 /// gap_free <- the gaps at the step's end without impulses; state.velocity holds v_free.
@@ -27,7 +33,7 @@ bool select_candidates(const StringModel& model, StringState& state) JAWARI_REAL
 /// impulse <- solution of the step's complementarity problem; a truncated solution is scaled until it is passive.
 void solve_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
-/// impulse <- 0 where the step needs none.
+/// impulse <- 0 at all near contacts.
 void clear_impulses(StringState& state) JAWARI_REALTIME;
 
 /// velocity += (w/mu) S^T lambda.

@@ -11,8 +11,7 @@ namespace {
 
 double energy_of(const StringModel& model, const AlignedVector<double>& displacement,
                  const AlignedVector<double>& velocity) {
-    // The theta scheme's energy has no lag between its two factors q.
-    const double lag = model.scheme == Scheme::Exact ? model.step_s : 0.0;
+    const double lag = model.scheme == Scheme::Exact ? model.step_s / 2 : 0.0;
     return kernels::energy(model.stride, model.kinetic.data(), model.potential.data(), lag, displacement.data(),
                            velocity.data());
 }
@@ -49,8 +48,8 @@ StepWork impulse_work(const StringModel& model, const StringState& state) {
         const double* row = model.contact_rows.data() + c * model.stride;
         double rise_now = 0;
         double rise_before = 0;
-        kernels::row_products(1, model.stride, row, state.velocity.data(), &rise_now);
-        kernels::row_products(1, model.stride, row, state.velocity_before.data(), &rise_before);
+        kernels::row_products(1, model.stride, model.stride, row, state.velocity.data(), &rise_now);
+        kernels::row_products(1, model.stride, model.stride, row, state.velocity_before.data(), &rise_before);
         const double raised = contact.height[c] - contact.height_before[c];
         if (model.scheme == Scheme::Exact) {
             const double raised_twice = raised + contact.height_rise_before[c];
@@ -71,8 +70,8 @@ double force_work(const StringModel& model, const StringState& state) {
     if (state.force == 0) return 0;
     double now = 0;
     double before = 0;
-    kernels::row_products(1, model.stride, state.force_row.data(), state.velocity.data(), &now);
-    kernels::row_products(1, model.stride, state.force_row.data(), state.velocity_before.data(), &before);
+    kernels::row_products(1, model.stride, model.stride, state.force_row.data(), state.velocity.data(), &now);
+    kernels::row_products(1, model.stride, model.stride, state.force_row.data(), state.velocity_before.data(), &before);
     const double share = model.scheme == Scheme::Exact ? 0.5 : model.theta;
     return model.step_s * state.force * (share * now + (1 - share) * before);
 }

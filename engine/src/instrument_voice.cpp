@@ -77,13 +77,7 @@ void damp_voice(const InstrumentStringModel& string, Voice& voice) JAWARI_REALTI
         state.velocity[k] = stopped.velocity_share[k] * state.velocity[k] +
                             stopped.displacement_share[k] * state.displacement[k];
     }
-    const StringModel& damped = stopped.damped;
-    ContactState& contact = state.contact;
-    kernels::row_products(damped.contact_count, damped.stride, damped.contact_rows.data(),
-                          state.velocity.data(), contact.gap_rate.data());
-    for (std::size_t c = 0; c < damped.contact_count; ++c) {
-        contact.gap_before[c] = contact.gap[c] - damped.step_s * contact.gap_rate[c];
-    }
+    notice_change(stopped.damped, state);
     voice.phase = VoicePhase::Damped;
 }
 
@@ -100,7 +94,7 @@ double advance_voice(const InstrumentModel& model, const InstrumentStringModel& 
     advance_frame(coefficients, voice.string);
     voice.age += 1;
     double output = 0;
-    kernels::row_products(1, coefficients.stride, string.stopped[voice.fret].output_row.data(),
+    kernels::row_products(1, voice.string.active_modes, coefficients.stride, string.stopped[voice.fret].output_row.data(),
                           voice.string.velocity.data(), &output);
     if (voice.fading) output = faded(model, voice, output);
     if (has_ended(model, string, voice)) finish(voice, finished);

@@ -14,44 +14,68 @@ using Lanes = hn::ScalableTag<double>;
 using Vec = hn::Vec<Lanes>;
 
 void free_velocity(std::size_t n, const double* HWY_RESTRICT carry, const double* HWY_RESTRICT change,
-                   const double* HWY_RESTRICT restoring, const double* HWY_RESTRICT q, double* HWY_RESTRICT v) {
+                   const double* HWY_RESTRICT restoring, const double* HWY_RESTRICT q, const double* HWY_RESTRICT v,
+                   double* HWY_RESTRICT out) {
     const Lanes d;
     for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
         const Vec velocity = hn::Load(d, v + k);
         // The small change is summed first, so that only one rounding is of the size of v.
         const Vec delta = hn::MulAdd(hn::Load(d, change + k), velocity,
                                      hn::Mul(hn::Load(d, restoring + k), hn::Load(d, q + k)));
-        hn::Store(hn::MulAdd(hn::Load(d, carry + k), velocity, delta), d, v + k);
+        hn::Store(hn::MulAdd(hn::Load(d, carry + k), velocity, delta), d, out + k);
     }
 }
 
-void row_products(std::size_t rows_count, std::size_t n, const double* HWY_RESTRICT rows,
-                  const double* HWY_RESTRICT x, double* HWY_RESTRICT out) {
+double row_product(std::size_t n, const double* HWY_RESTRICT row, const double* HWY_RESTRICT x) {
     const Lanes d;
+    Vec sum = hn::Zero(d);
+    for (std::size_t k = 0; k < n; k += hn::Lanes(d)) sum = hn::MulAdd(hn::Load(d, row + k), hn::Load(d, x + k), sum);
+    return hn::GetLane(hn::SumOfLanes(d, sum));
+}
+
+/// Four rows share each load of x. Every row is summed in the same order as by row_product.
+HWY_INLINE void four_row_products(std::size_t n, const double* HWY_RESTRICT row0, const double* HWY_RESTRICT row1,
+                                  const double* HWY_RESTRICT row2, const double* HWY_RESTRICT row3,
+                                  const double* HWY_RESTRICT x, double (&sums)[4]) {
+    const Lanes d;
+    Vec s0 = hn::Zero(d), s1 = hn::Zero(d), s2 = hn::Zero(d), s3 = hn::Zero(d);
+    for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
+        const Vec value = hn::Load(d, x + k);
+        s0 = hn::MulAdd(hn::Load(d, row0 + k), value, s0);
+        s1 = hn::MulAdd(hn::Load(d, row1 + k), value, s1);
+        s2 = hn::MulAdd(hn::Load(d, row2 + k), value, s2);
+        s3 = hn::MulAdd(hn::Load(d, row3 + k), value, s3);
+    }
+    sums[0] = hn::GetLane(hn::SumOfLanes(d, s0));
+    sums[1] = hn::GetLane(hn::SumOfLanes(d, s1));
+    sums[2] = hn::GetLane(hn::SumOfLanes(d, s2));
+    sums[3] = hn::GetLane(hn::SumOfLanes(d, s3));
+}
+
+void row_products(std::size_t rows_count, std::size_t n, std::size_t stride, const double* HWY_RESTRICT rows,
+                  const double* HWY_RESTRICT x, double* HWY_RESTRICT out) {
     std::size_t c = 0;
-    for (; c + 4 <= rows_count; c += 4) {  // four rows share each load of x
-        const double* row = rows + c * n;
-        Vec s0 = hn::Zero(d), s1 = hn::Zero(d), s2 = hn::Zero(d), s3 = hn::Zero(d);
-        for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
-            const Vec value = hn::Load(d, x + k);
-            s0 = hn::MulAdd(hn::Load(d, row + k), value, s0);
-            s1 = hn::MulAdd(hn::Load(d, row + n + k), value, s1);
-            s2 = hn::MulAdd(hn::Load(d, row + 2 * n + k), value, s2);
-            s3 = hn::MulAdd(hn::Load(d, row + 3 * n + k), value, s3);
-        }
-        out[c] = hn::GetLane(hn::SumOfLanes(d, s0));
-        out[c + 1] = hn::GetLane(hn::SumOfLanes(d, s1));
-        out[c + 2] = hn::GetLane(hn::SumOfLanes(d, s2));
-        out[c + 3] = hn::GetLane(hn::SumOfLanes(d, s3));
+    double sums[4];
+    for (; c + 4 <= rows_count; c += 4) {
+        const double* row = rows + c * stride;
+        four_row_products(n, row, row + stride, row + 2 * stride, row + 3 * stride, x, sums);
+        for (std::size_t i = 0; i < 4; ++i) out[c + i] = sums[i];
     }
-    for (; c < rows_count; ++c) {
-        const double* row = rows + c * n;
-        Vec sum = hn::Zero(d);
-        for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
-            sum = hn::MulAdd(hn::Load(d, row + k), hn::Load(d, x + k), sum);
-        }
-        out[c] = hn::GetLane(hn::SumOfLanes(d, sum));
+    for (; c < rows_count; ++c) out[c] = row_product(n, rows + c * stride, x);
+}
+
+void indexed_row_products(const std::uint32_t* HWY_RESTRICT indices, std::size_t count, std::size_t n,
+                          std::size_t stride, const double* HWY_RESTRICT rows, const double* HWY_RESTRICT x,
+                          double* HWY_RESTRICT out) {
+    std::size_t i = 0;
+    double sums[4];
+    for (; i + 4 <= count; i += 4) {
+        const std::uint32_t* c = indices + i;
+        four_row_products(n, rows + c[0] * stride, rows + c[1] * stride, rows + c[2] * stride, rows + c[3] * stride, x,
+                          sums);
+        for (std::size_t j = 0; j < 4; ++j) out[c[j]] = sums[j];
     }
+    for (; i < count; ++i) out[indices[i]] = row_product(n, rows + indices[i] * stride, x);
 }
 
 void add_impulse(std::size_t n, double scale, const double* HWY_RESTRICT mobility, const double* HWY_RESTRICT row,
@@ -79,10 +103,9 @@ double energy(std::size_t n, const double* HWY_RESTRICT kinetic, const double* H
     Vec sum = hn::Zero(d);
     for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
         const Vec velocity = hn::Load(d, v + k);
-        const Vec displacement = hn::Load(d, q + k);
-        const Vec before = hn::MulAdd(minus_lag, velocity, displacement);
+        const Vec middle = hn::MulAdd(minus_lag, velocity, hn::Load(d, q + k));
         sum = hn::MulAdd(hn::Mul(hn::Load(d, kinetic + k), velocity), velocity, sum);
-        sum = hn::MulAdd(hn::Mul(hn::Load(d, potential + k), displacement), before, sum);
+        sum = hn::MulAdd(hn::Mul(hn::Load(d, potential + k), middle), middle, sum);
     }
     return hn::GetLane(hn::SumOfLanes(d, sum));
 }
@@ -118,6 +141,7 @@ namespace jawari::kernels {
 
 HWY_EXPORT(free_velocity);
 HWY_EXPORT(row_products);
+HWY_EXPORT(indexed_row_products);
 HWY_EXPORT(add_impulse);
 HWY_EXPORT(add_scaled);
 HWY_EXPORT(energy);
@@ -126,12 +150,18 @@ HWY_EXPORT(finite_probe);
 HWY_EXPORT(target);
 
 void free_velocity(std::size_t n, const double* carry, const double* change, const double* restoring, const double* q,
-                   double* v) noexcept {
-    HWY_DYNAMIC_DISPATCH(free_velocity)(n, carry, change, restoring, q, v);
+                   const double* v, double* out) noexcept {
+    HWY_DYNAMIC_DISPATCH(free_velocity)(n, carry, change, restoring, q, v, out);
 }
 
-void row_products(std::size_t rows_count, std::size_t n, const double* rows, const double* x, double* out) noexcept {
-    HWY_DYNAMIC_DISPATCH(row_products)(rows_count, n, rows, x, out);
+void row_products(std::size_t rows_count, std::size_t n, std::size_t stride, const double* rows, const double* x,
+                  double* out) noexcept {
+    HWY_DYNAMIC_DISPATCH(row_products)(rows_count, n, stride, rows, x, out);
+}
+
+void indexed_row_products(const std::uint32_t* indices, std::size_t count, std::size_t n, std::size_t stride,
+                          const double* rows, const double* x, double* out) noexcept {
+    HWY_DYNAMIC_DISPATCH(indexed_row_products)(indices, count, n, stride, rows, x, out);
 }
 
 void add_impulse(std::size_t n, double scale, const double* mobility, const double* row, double* v) noexcept {

@@ -3,15 +3,20 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace jawari::kernels {
 
-/// v <- carry v + change v + restoring q
+/// out <- carry v + change v + restoring q
 void free_velocity(std::size_t n, const double* carry, const double* change, const double* restoring, const double* q,
-                   double* v) noexcept;
+                   const double* v, double* out) noexcept;
 
-/// out[c] = sum_k rows[c][k] x[k]
-void row_products(std::size_t rows_count, std::size_t n, const double* rows, const double* x, double* out) noexcept;
+/// out[c] = sum_{k<n} rows[c * stride + k] x[k], c < rows_count
+void row_products(std::size_t rows_count, std::size_t n, std::size_t stride, const double* rows, const double* x, double* out) noexcept;
+
+/// out[c] = sum_{k<n} rows[c * stride + k] x[k] for the `count` rows c that `indices` names
+void indexed_row_products(const std::uint32_t* indices, std::size_t count, std::size_t n, std::size_t stride,
+                          const double* rows, const double* x, double* out) noexcept;
 
 /// v <- v + scale mobility row: what an impulse or a force at one point does to the modes
 void add_impulse(std::size_t n, double scale, const double* mobility, const double* row, double* v) noexcept;
@@ -19,7 +24,7 @@ void add_impulse(std::size_t n, double scale, const double* mobility, const doub
 /// y <- y + scale x
 void add_scaled(std::size_t n, double scale, const double* x, double* y) noexcept;
 
-/// sum_k kinetic v^2 + potential q (q - lag v)
+/// sum_k kinetic v^2 + potential (q - lag v)^2
 double energy(std::size_t n, const double* kinetic, const double* potential, double lag, const double* q,
               const double* v) noexcept;
 

@@ -7,8 +7,7 @@
 
 namespace jawari {
 
-/// Adds the step just made to state.energy. Call after the displacement has advanced and before accept_gaps(): gap_before and
-/// height_before are then two steps old relative to the new gap, as the balance needs.
+/// Adds the step just made to state.energy. Call after the displacement has advanced.
 void meter_step(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
 /// Notes H at the end of a frame.

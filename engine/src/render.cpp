@@ -2,42 +2,20 @@
 
 #include <algorithm>
 
-#include "contact.h"
 #include "jawari/energy.h"
 #include "kernels.h"
-#include "metering.h"
 
 namespace jawari {
-namespace {
-
-bool is_finite(const StringModel& model, const StringState& state) {
-    return kernels::all_finite(model.stride, state.displacement.data()) &&
-           kernels::all_finite(model.stride, state.velocity.data());
-}
-
-}  // namespace
-
-void advance_frame(const StringModel& model, StringState& state, std::size_t steps) JAWARI_REALTIME {
-    std::fill(state.contact.frame_impulse.begin(), state.contact.frame_impulse.end(), 0.0);
-    refresh_gaps(model, state);
-    for (std::size_t n = 0; n < steps; ++n) step(model, state);
-    if (!is_finite(model, state)) {
-        put_to_rest(model, state);
-        state.counters.nonfinite_resets += 1;
-    }
-    if (state.metering == Metering::Frame) meter_frame(model, state);
-}
-
 double probe_value(const StringModel& model, const StringState& state, std::size_t probe,
                    double frame_s) JAWARI_REALTIME {
     const double* row = model.probe_rows.data() + probe * model.stride;
     double value = 0;
     switch (model.probes[probe].quantity) {
         case Quantity::Displacement:
-            kernels::row_products(1, model.stride, row, state.displacement.data(), &value);
+            kernels::row_products(1, state.active_modes, model.stride, row, state.displacement.data(), &value);
             break;
         case Quantity::Velocity:
-            kernels::row_products(1, model.stride, row, state.velocity.data(), &value);
+            kernels::row_products(1, state.active_modes, model.stride, row, state.velocity.data(), &value);
             break;
         case Quantity::ContactForce: {
             const auto contact = model.contact_of_description[model.probes[probe].contact];
@@ -61,7 +39,7 @@ void render(const SceneModel& model, SceneState& state, std::span<double* const>
             for (std::size_t p = 0; p < string.probes.size(); ++p) {
                 outputs[output++][n] = probe_value(string, state.strings[s], p, frame_s);
             }
-            advance_frame(string, state.strings[s], model.steps_per_frame);
+            advance_frame(string, state.strings[s]);
         }
         state.frame += 1;
     }

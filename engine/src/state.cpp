@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "certificate.h"
 #include "contact.h"
 #include "jawari/energy.h"
 #include "kernels.h"
@@ -20,6 +21,8 @@ ContactState make_contact_state(const StringModel& model) {
     }
     contact.moving_steps.assign(n, 0);
     contact.candidates.assign(n, 0);
+    contact.near.assign(n, 0);
+    contact.is_near.assign(n, 0);
     return contact;
 }
 
@@ -34,35 +37,44 @@ void place_obstacles(const StringModel& model, ContactState& contact) {
     contact.candidate_count = 0;
 }
 
-/// gap and gap_before from displacement and backward velocity.
-void place_gaps(const StringModel& model, StringState& state) {
-    ContactState& contact = state.contact;
-    kernels::row_products(model.contact_count, model.stride, model.contact_rows.data(), state.velocity.data(),
-                          contact.gap_rate.data());
-    refresh_gaps(model, state);
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
-        contact.gap_before[c] = contact.gap[c] - model.step_s * contact.gap_rate[c];
+CertificateState make_certificate_state(const StringModel& model) {
+    const std::size_t groups = std::max<std::size_t>(model.certificate.group_begin.size(), 1) - 1;
+    CertificateState bounds;
+    for (auto* array : {&bounds.speed, &bounds.detour, &bounds.extent}) array->assign(model.stride, 0.0);
+    for (auto* array : {&bounds.group_speed, &bounds.group_detour, &bounds.group_clearance, &bounds.group_odometer,
+                        &bounds.group_push, &bounds.group_margin, &bounds.group_force_kick}) {
+        array->assign(groups, 0.0);
     }
+    for (auto* array : {&bounds.open_until, &bounds.margin, &bounds.frame_gap, &bounds.frame_end_gap}) {
+        array->assign(model.contact_count, 0.0);
+    }
+    bounds.frame_gap_at.assign(model.contact_count, 0);
+    bounds.expired.assign(model.contact_count, 0);
+    return bounds;
 }
 
 }  // namespace
 
-StringState make_string_state(const StringModel& model, Metering metering) {
+StringState make_string_state(const StringModel& model, Metering metering, Skipping skipping) {
     StringState state;
     for (auto* array : {&state.displacement, &state.velocity, &state.displacement_before, &state.velocity_before,
-                        &state.force_row}) {
+                        &state.displacement_flown, &state.velocity_flown, &state.force_row}) {
         array->assign(model.stride, 0.0);
     }
     state.contact = make_contact_state(model);
     state.lcp = make_lcp_workspace(model.contact_count);
+    state.certificate = make_certificate_state(model);
     state.metering = metering;
+    state.skipping = skipping;
     reset(model, state);
     return state;
 }
 
-SceneState make_state(const SceneModel& model, Metering metering) {
+SceneState make_state(const SceneModel& model, Metering metering, Skipping skipping) {
     SceneState state;
-    for (const StringModel& string : model.strings) state.strings.push_back(make_string_state(string, metering));
+    for (const StringModel& string : model.strings) {
+        state.strings.push_back(make_string_state(string, metering, skipping));
+    }
     return state;
 }
 
@@ -71,8 +83,11 @@ void reset(const StringModel& model, StringState& state) noexcept {
     std::copy(model.initial_velocity.begin(), model.initial_velocity.end(), state.velocity.begin());
     state.force = 0;
     state.force_rate = 0;
+    state.frame = 0;
+    state.certificate.strongest_speed = 0;
+    state.certificate.strongest_extent = 0;
     place_obstacles(model, state.contact);
-    place_gaps(model, state);
+    notice_change(model, state);
     state.counters = {};
     state.energy = {};
     state.energy.initial = energy(model, state);
@@ -85,7 +100,15 @@ void put_to_rest(const StringModel& model, StringState& state) noexcept {
     state.force = 0;
     state.force_rate = 0;
     place_obstacles(model, state.contact);
+    notice_change(model, state);
+}
+
+void notice_change(const StringModel& model, StringState& state) noexcept {
+    state.active_modes = model.stride;
+    state.asleep = false;
+    choose_all_contacts(model, state);
     place_gaps(model, state);
+    forget_bounds(state);
 }
 
 }  // namespace jawari

@@ -14,7 +14,7 @@ std::optional<AlignedVector<double>> held_displacement(const StringModel& model,
     const std::size_t count = model.contact_count;
     AlignedVector<double> held(n, 0.0);
     AlignedVector<double> gap(model.contact_stride, 0.0);
-    kernels::row_products(count, n, model.contact_rows.data(), displacement.data(), gap.data());
+    kernels::row_products(count, n, n, model.contact_rows.data(), displacement.data(), gap.data());
     bool penetrates = false;
     for (std::size_t c = 0; c < count; ++c) {
         gap[c] -= model.contact_height[c];
@@ -29,7 +29,7 @@ std::optional<AlignedVector<double>> held_displacement(const StringModel& model,
     for (std::size_t c = 0; c < count; ++c) {
         std::fill(response.begin(), response.end(), 0.0);
         kernels::add_impulse(n, 1.0, compliance_of_mode.data(), model.contact_rows.data() + c * n, response.data());
-        kernels::row_products(count, n, model.contact_rows.data(), response.data(),
+        kernels::row_products(count, n, n, model.contact_rows.data(), response.data(),
                               static_compliance.data() + c * model.contact_stride);
     }
     std::vector<std::uint32_t> candidates(count);

@@ -1,6 +1,7 @@
 // One contact step, stage by stage (DESIGN of the stages: docs/model.md, "The time step").
 #include <algorithm>
 
+#include "certificate.h"
 #include "contact.h"
 #include "jawari/render.h"
 #include "kernels.h"
@@ -9,34 +10,42 @@
 namespace jawari {
 namespace {
 
-bool needs_previous_state(const StringModel& model, const StringState& state) {
-    return model.scheme == Scheme::Theta || state.metering == Metering::Step;
-}
-
+/// velocity_before <- v; its old storage receives the step's new velocity.
 void remember(const StringModel& model, StringState& state) {
-    std::copy(state.velocity.begin(), state.velocity.end(), state.velocity_before.begin());
+    state.velocity.swap(state.velocity_before);
     if (state.metering == Metering::Step) {
         std::copy(state.displacement.begin(), state.displacement.end(), state.displacement_before.begin());
     }
-    if (model.scheme == Scheme::Theta) note_approach(model, state);
+    if (model.theta < 1) note_approach(model, state);
 }
 
 /// v_free = carry v + change v + restoring q + h (w/mu) phi(x) F
 void predict_velocity(const StringModel& model, StringState& state) {
-    kernels::free_velocity(model.stride, model.carry.data(), model.change.data(), model.restoring.data(),
-                           state.displacement.data(), state.velocity.data());
+    kernels::free_velocity(state.active_modes, model.carry.data(), model.change.data(), model.restoring.data(),
+                           state.displacement.data(), state.velocity_before.data(), state.velocity.data());
     if (state.force != 0) {
-        kernels::add_impulse(model.stride, model.step_s * state.force, model.mobility.data(), state.force_row.data(),
-                             state.velocity.data());
+        kernels::add_impulse(state.active_modes, model.step_s * state.force, model.mobility.data(),
+                             state.force_row.data(), state.velocity.data());
     }
+}
+
+/// lambda of the step; contacts that it may push in become near, and the impulses are found again with them.
+void find_impulses(const StringModel& model, StringState& state) {
+    state.active_modes = model.stride;  // an impulse wakes every mode
+    solve_impulses(model, state);
+    while (admit_pushed_contacts(model, state)) {
+        select_candidates(model, state);
+        solve_impulses(model, state);
+    }
+    charge_impulses(model, state);
 }
 
 /// q+ = q + h (theta v+ + (1 - theta) v)
 void advance_displacement(const StringModel& model, StringState& state) {
     const double h = model.step_s;
-    kernels::add_scaled(model.stride, h * model.theta, state.velocity.data(), state.displacement.data());
+    kernels::add_scaled(state.active_modes, h * model.theta, state.velocity.data(), state.displacement.data());
     if (model.theta < 1) {
-        kernels::add_scaled(model.stride, h * (1 - model.theta), state.velocity_before.data(),
+        kernels::add_scaled(state.active_modes, h * (1 - model.theta), state.velocity_before.data(),
                             state.displacement.data());
     }
 }
@@ -44,12 +53,12 @@ void advance_displacement(const StringModel& model, StringState& state) {
 }  // namespace
 
 void step(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    if (needs_previous_state(model, state)) remember(model, state);
+    remember(model, state);
     move_obstacles(state.contact);
     predict_velocity(model, state);
     predict_gaps(model, state);
     if (select_candidates(model, state)) {
-        solve_impulses(model, state);
+        find_impulses(model, state);
         apply_impulses(model, state);
     } else {
         clear_impulses(state);
@@ -59,6 +68,7 @@ void step(const StringModel& model, StringState& state) JAWARI_REALTIME {
     accept_gaps(model, state);
     state.force += state.force_rate;
     state.counters.steps += 1;
+    if (state.steps_left > 0) state.steps_left -= 1;
 }
 
 }  // namespace jawari

@@ -20,10 +20,16 @@ ExactFactors exact_factors(double omega, double sigma, double h) {
     factors.e = std::exp(-2 * sigma * h);
     if (sigma <= omega) {
         const double W = std::sqrt((omega - sigma) * (omega + sigma));
-        factors.d = square(std::expm1(-sigma * h)) + 4 * std::exp(-sigma * h) * square(std::sin(W * h / 2));
+        const double loss = square(std::expm1(-sigma * h));
+        const double turn = 4 * std::exp(-sigma * h);
+        factors.d = loss + turn * square(std::sin(W * h / 2));
+        factors.s = loss + turn * square(std::cos(W * h / 2));
     } else {
         const double r = std::sqrt((sigma - omega) * (sigma + omega));
-        factors.d = std::expm1(-omega * omega * h / (sigma + r)) * std::expm1(-(sigma + r) * h);
+        const double slow = -omega * omega * h / (sigma + r);
+        const double fast = -(sigma + r) * h;
+        factors.d = std::expm1(slow) * std::expm1(fast);
+        factors.s = (1 + std::exp(slow)) * (1 + std::exp(fast));
     }
     return factors;
 }
@@ -35,6 +41,79 @@ StepCoefficients exact_step(double omega, double sigma, double h) {
     step.restoring = -factors.d / h;
     step.mobility = factors.d / square(omega * h);
     return step;
+}
+
+namespace {
+
+/// psi_m by its recurrence psi_{n+1} = A psi_n - e psi_{n-1}, for angles near a multiple of pi where the quotient of sines fails.
+double psi_by_recurrence(double A, double e, std::size_t m) {
+    double before = 0;
+    double now = 1;
+    for (std::size_t n = 1; n < m; ++n) {
+        const double after = A * now - e * before;
+        before = now;
+        now = after;
+    }
+    return now;
+}
+
+struct FreeMotion {
+    double psi = 1;                 ///< psi_m
+    double half_trace_minus_one = 0;  ///< trace(P^m)/2 - 1
+};
+
+FreeMotion free_motion(double omega, double sigma, double h, std::size_t m) {
+    const double steps = static_cast<double>(m);
+    const double t = steps * h;
+    const double decay_between = std::exp(-sigma * (steps - 1) * h);
+    FreeMotion motion;
+    if (sigma <= omega) {
+        const double W = std::sqrt((omega - sigma) * (omega + sigma));
+        const double angle = W * h;
+        const double half_turn = std::sin(W * t / 2);
+        motion.half_trace_minus_one = std::expm1(-sigma * t) - 2 * std::exp(-sigma * t) * square(half_turn);
+        if (angle == 0) {
+            motion.psi = steps * decay_between;
+        } else if (angle < 1 || std::abs(std::sin(angle)) > 0.1) {
+            motion.psi = decay_between * std::sin(W * t) / std::sin(angle);
+        } else {
+            motion.psi = psi_by_recurrence(2 * std::exp(-sigma * h) * std::cos(angle), std::exp(-2 * sigma * h), m);
+        }
+        return motion;
+    }
+    const double r = std::sqrt((sigma - omega) * (sigma + omega));
+    const double slow = omega * omega / (sigma + r);
+    motion.half_trace_minus_one = (std::expm1(-slow * t) + std::expm1(-(sigma + r) * t)) / 2;
+    motion.psi = std::exp(-slow * (t - h)) * std::expm1(-2 * r * t) / std::expm1(-2 * r * h);
+    return motion;
+}
+
+}  // namespace
+
+FlightFactors flight_factors(double omega, double sigma, double h, std::size_t m) {
+    const ExactFactors step = exact_factors(omega, sigma, h);
+    const FreeMotion motion = free_motion(omega, sigma, h, m);
+    const double half_difference = motion.psi * (-std::expm1(-2 * sigma * h) - step.d) / 2;
+    FlightFactors flight;
+    flight.qq = motion.half_trace_minus_one + half_difference;
+    flight.vv = motion.half_trace_minus_one - half_difference;
+    flight.qv = h * step.e * motion.psi;
+    flight.vq = -step.d / h * motion.psi;
+
+    // Responses to a force by stepping once through the frame.
+    const double impulse = h * step.d / square(omega * h);
+    double q_held = 0, v_held = 0, q_ramp = 0, v_ramp = 0;
+    for (std::size_t n = 0; n < m; ++n) {
+        v_held = step.e * v_held - step.d / h * q_held + impulse;
+        q_held += h * v_held;
+        v_ramp = step.e * v_ramp - step.d / h * q_ramp + static_cast<double>(n) * impulse;
+        q_ramp += h * v_ramp;
+    }
+    flight.q_held = q_held;
+    flight.v_held = v_held;
+    flight.q_ramp = q_ramp;
+    flight.v_ramp = v_ramp;
+    return flight;
 }
 
 StepCoefficients theta_step(double omega, double sigma, double h, double theta) {

@@ -10,6 +10,24 @@
 
 namespace jawari {
 
+/// Free flight over one output frame of m steps: (q, v) <- (q, v) + F (q, v) + force response. Arrays over modes.
+struct FlightModel {
+    AlignedVector<double> qq, qv, vq, vv;  ///< P^m - I, P = [[1-d, h e], [-d/h, e]]; qv in s, vq in 1/s
+    /// Response at the frame's end to a force of 1 N held over it, and to one that grows by 1 N a step, per unit of phi.
+    AlignedVector<double> q_held, v_held, q_ramp, v_ramp;
+};
+
+/// Weights of the gap certificate (docs/certificate.md). Arrays over modes unless said otherwise.
+struct CertificateModel {
+    AlignedVector<double> stiffness;  ///< kappa = 4d/((1+e+A) h^2): r^2 = v^2 + kappa (q - h v/2)^2 [1/s^2]
+    AlignedVector<double> extent_q;   ///< a^2 = extent_q (q - h v/2)^2 + extent_v v^2 bounds q^2; 2(1+e)/(1+e+A)
+    AlignedVector<double> extent_v;   ///< h^2 (1+e)/(2d) [s^2]
+    AlignedVector<double> kick;       ///< rho w/mu: what an impulse on phi = 1 adds to r at most [1/kg m]
+    std::vector<std::size_t> group_begin;  ///< first contact of each group, and the contact count at the end
+    AlignedVector<double> envelope;   ///< max over a group's contacts of |phi_k|, groups x stride
+    std::vector<double> push;         ///< speed that 1 N s at contact c gives group g at most [1/kg], groups x contact_count
+};
+
 /// Arrays over modes have length `stride` (the mode count N padded by modes at rest); rows over contacts are `stride` apart.
 struct StringModel {
     std::string name;
@@ -31,8 +49,13 @@ struct StringModel {
     AlignedVector<double> restoring;      ///< -d_k/h [1/s]
     AlignedVector<double> mobility;       ///< w_k/mu [1/kg m]
 
-    // -- energy (energy.h): H = sum kinetic v^2 + potential q (q - h v)
-    AlignedVector<double> kinetic;      ///< mu (1+e)/(4 w), or mu/2 for the theta scheme; 0 where w = 0
+    // -- skipping; exact scheme only
+    std::size_t steps_per_frame = 1;  ///< m
+    FlightModel flight;
+    CertificateModel certificate;
+
+    // -- energy (energy.h): H = sum kinetic v^2 + potential (q - h v/2)^2, or + potential q^2 for the theta scheme
+    AlignedVector<double> kinetic;      ///< mu (1+e+A)/(8 w), or mu/2 for the theta scheme; 0 where w = 0
     AlignedVector<double> potential;    ///< mu omega^2/2
     AlignedVector<double> dissipation;  ///< mu (1-e)/(4 w); for the theta scheme 2 mu sigma h; 0 where w = 0
 

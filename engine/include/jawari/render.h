@@ -13,8 +13,9 @@ namespace jawari {
 /// One contact step of one string: free prediction, gaps, candidates, impulses, update.
 void step(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
-/// One output frame of one string: `steps` contact steps, then the check for non-finite state.
-void advance_frame(const StringModel& model, StringState& state, std::size_t steps) JAWARI_REALTIME;
+/// One output frame of one string: model.steps_per_frame contact steps, or what state.skipping allows instead of them, then the
+/// check for non-finite state. Bounded work: at most model.steps_per_frame steps with all contacts, and one flight.
+void advance_frame(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
 /// Value of one probe at the state's time. `frame_s`: the output interval, over which contact force is averaged.
 double probe_value(const StringModel& model, const StringState& state, std::size_t probe, double frame_s) JAWARI_REALTIME;

@@ -8,6 +8,7 @@
 #include "jawari/aligned.h"
 #include "jawari/lcp.h"
 #include "jawari/model.h"
+#include "jawari/skipping.h"
 
 namespace jawari {
 
@@ -18,6 +19,9 @@ struct Counters {
     std::uint64_t impulses = 0;          ///< impulses > 0
     std::uint64_t solves = 0;            ///< complementarity problems with a violated candidate
     std::uint64_t truncated_solves = 0;  ///< solves stopped by the bound on operations, made passive by scaling
+    std::uint64_t flown_frames = 0;      ///< frames crossed by free flight
+    std::uint64_t near_frames = 0;       ///< frames stepped finely for the contacts that might close
+    std::uint64_t asleep_frames = 0;     ///< frames that cost nothing
     std::uint64_t nonfinite_resets = 0;  ///< times the string was put to rest because its state was not finite
     double worst_residual_m = 0;         ///< largest LCP residual max_c |min(y - tau, A_cc lambda)| of finished solves
     double worst_penetration_m = 0;      ///< largest -gap
@@ -56,15 +60,51 @@ struct ContactState {
     AlignedVector<double> gap_rate;       ///< scratch: S v of the step's start (theta scheme)
     AlignedVector<double> offset;         ///< scratch: r = y_free - tau
     AlignedVector<double> residual;       ///< scratch: r + A lambda
+    std::vector<std::uint32_t> near;      ///< contacts evaluated at each step; `near_count` are valid, gaps of others are stale
+    std::vector<std::uint8_t> is_near;    ///< the same as flags
+    std::size_t near_count = 0;
     std::vector<std::uint32_t> candidates;    ///< scratch: indices; `candidate_count` are valid
     std::size_t candidate_count = 0;
     std::size_t moving_count = 0;
 };
 
+/// Bounds that hold until an impulse, a force or an outside change of state (docs/certificate.md).
+struct CertificateState {
+    AlignedVector<double> speed;   ///< scratch over modes: r_k, bound of |v_k|
+    AlignedVector<double> detour;  ///< scratch over modes: how far q_k may leave the straight line between frame boundaries
+    AlignedVector<double> extent;  ///< scratch over modes: bound of |q_k|
+    // per group of contacts
+    std::vector<double> group_speed;      ///< R: bound of the gaps' rate [m/s]
+    std::vector<double> group_detour;     ///< D: how far a gap dips below both its values at a frame's ends [m]
+    std::vector<double> group_clearance;  ///< lower bound of the gaps for as long as the string flies freely [m]
+    std::vector<double> group_odometer;   ///< integral of R since the last refresh [m]
+    std::vector<double> group_push;       ///< what the frame's impulses so far may have moved the gaps until its end [m]
+    std::vector<double> group_margin;     ///< smallest margin of the group's contacts this frame [m]
+    std::vector<double> group_force_kick; ///< speed that 1 N s of the excitation gives at most [1/kg]
+    // per contact
+    std::vector<double> open_until;       ///< odometer reading up to which the gap is certainly open [m]
+    std::vector<double> margin;           ///< this frame's lower bound of the gap without impulses [m]
+    std::vector<double> frame_gap;        ///< S q - b at the coming frame's start, where frame_gap_at says so
+    std::vector<double> frame_end_gap;    ///< scratch: the same at the frame's end in free flight
+    std::vector<std::uint64_t> frame_gap_at;  ///< frame at whose start frame_gap holds
+    std::vector<std::uint32_t> expired;   ///< scratch: contacts whose certificate has run out
+    std::uint64_t age = 0;                ///< frames since the last refresh
+    bool outdated = true;                 ///< an impulse or force has raised the bounds
+    double strongest_speed = 0;           ///< largest r_k ever [m^(3/2)/s]
+    double strongest_extent = 0;          ///< largest |q_k| bound ever
+};
+
 struct StringState {
     AlignedVector<double> displacement;  ///< q
     AlignedVector<double> velocity;      ///< backward velocity v
-    AlignedVector<double> displacement_before, velocity_before;  ///< scratch for metering and the theta scheme
+    AlignedVector<double> displacement_before, velocity_before;  ///< scratch: one step earlier
+    AlignedVector<double> displacement_flown, velocity_flown;    ///< scratch: the frame's end in free flight
+    std::size_t active_modes = 0;        ///< modes in the sums (padded); those behind are at rest
+    std::uint64_t frame = 0;             ///< frames since make_state()
+    std::size_t steps_left = 0;          ///< of the current frame, including the current step
+    bool asleep = false;
+    CertificateState certificate;
+    Skipping skipping;
     AlignedVector<double> force_row;     ///< phi_k(x) of the excitation [m^(-1/2)]
     double force = 0;                    ///< excitation at the step [N]
     double force_rate = 0;               ///< its change per step [N]
@@ -81,13 +121,18 @@ struct SceneState {
 };
 
 /// A state at t = 0 for the model. Allocates all that rendering needs.
-SceneState make_state(const SceneModel& model, Metering metering = Metering::Off);
+SceneState make_state(const SceneModel& model, Metering metering = Metering::Off, Skipping skipping = skip_all);
 
 /// One string of it.
-StringState make_string_state(const StringModel& model, Metering metering = Metering::Off);
+StringState make_string_state(const StringModel& model, Metering metering = Metering::Off,
+                              Skipping skipping = skip_all);
 
 /// Back to t = 0, counters and meters cleared; does not allocate.
 void reset(const StringModel& model, StringState& state) noexcept;
+
+/// To be called when displacement, velocity, the model or the force row were changed from outside between frames: the gaps are
+/// computed anew, every bound is forgotten, a sleeping string wakes.
+void notice_change(const StringModel& model, StringState& state) noexcept;
 
 /// At rest against the obstacles at their initial heights, without excitation; counters and meters stay. Does not allocate.
 void put_to_rest(const StringModel& model, StringState& state) noexcept;

@@ -1,0 +1,100 @@
+#include "compile_skipping.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "jawari/step_coefficients.h"
+#include "kernels.h"
+
+namespace jawari {
+namespace {
+
+double square(double x) { return x * x; }
+
+/// Up to this many contacts each has bounds of its own; more share them in groups of neighbours.
+constexpr std::size_t contacts_with_own_bounds = 64;
+constexpr std::size_t contacts_per_group = 16;
+
+/// d = 0 and s = 0 are possible (undamped modes at multiples of the step's Nyquist rate): their bounds become huge, not infinite,
+/// and what they bound is then simply evaluated.
+constexpr double smallest_factor = 1e-100;
+
+void set_flight(StringModel& model) {
+    FlightModel& flight = model.flight;
+    for (auto* array : {&flight.qq, &flight.qv, &flight.vq, &flight.vv, &flight.q_held, &flight.v_held, &flight.q_ramp,
+                        &flight.v_ramp}) {
+        array->assign(model.stride, 0.0);
+    }
+    const double mu = model.linear_density_kg_per_m;
+    for (std::size_t k = 0; k < model.mode_count; ++k) {
+        const FlightFactors f = flight_factors(model.omega[k], model.sigma[k], model.step_s, model.steps_per_frame);
+        flight.qq[k] = f.qq;
+        flight.qv[k] = f.qv;
+        flight.vq[k] = f.vq;
+        flight.vv[k] = f.vv;
+        flight.q_held[k] = f.q_held / mu;
+        flight.v_held[k] = f.v_held / mu;
+        flight.q_ramp[k] = f.q_ramp / mu;
+        flight.v_ramp[k] = f.v_ramp / mu;
+    }
+}
+
+void set_bounds_of_modes(StringModel& model) {
+    CertificateModel& certificate = model.certificate;
+    for (auto* array : {&certificate.stiffness, &certificate.extent_q, &certificate.extent_v, &certificate.kick}) {
+        array->assign(model.stride, 0.0);
+    }
+    const double h = model.step_s;
+    for (std::size_t k = 0; k < model.mode_count; ++k) {
+        const ExactFactors step = exact_factors(model.omega[k], model.sigma[k], h);
+        const double s = std::max(step.s, smallest_factor);
+        const double d = std::max(step.d, smallest_factor);
+        certificate.stiffness[k] = 4 * step.d / (s * square(h));
+        certificate.extent_q[k] = 2 * (1 + step.e) / s;
+        certificate.extent_v[k] = square(h) * (1 + step.e) / (2 * d);
+        certificate.kick[k] = std::sqrt(2 * (1 + step.e) / s) * model.mobility[k];
+    }
+}
+
+void set_groups(StringModel& model) {
+    CertificateModel& certificate = model.certificate;
+    const std::size_t size = model.contact_count <= contacts_with_own_bounds ? 1 : contacts_per_group;
+    for (std::size_t c = 0; c < model.contact_count; c += size) certificate.group_begin.push_back(c);
+    const std::size_t groups = certificate.group_begin.size();
+    certificate.group_begin.push_back(model.contact_count);
+    certificate.envelope.assign(groups * model.stride, 0.0);
+    for (std::size_t g = 0; g < groups; ++g) {
+        double* envelope = certificate.envelope.data() + g * model.stride;
+        for (std::size_t c = certificate.group_begin[g]; c < certificate.group_begin[g + 1]; ++c) {
+            const double* row = model.contact_rows.data() + c * model.stride;
+            for (std::size_t k = 0; k < model.mode_count; ++k) envelope[k] = std::max(envelope[k], std::abs(row[k]));
+        }
+    }
+}
+
+/// push[g][c] = sum_k envelope_g kick |S_c|
+void set_pushes(StringModel& model) {
+    CertificateModel& certificate = model.certificate;
+    const std::size_t groups = certificate.group_begin.size() - 1;
+    certificate.push.assign(groups * model.contact_count, 0.0);
+    AlignedVector<double> kick(model.stride);
+    std::vector<double> of_groups(groups);
+    for (std::size_t c = 0; c < model.contact_count; ++c) {
+        const double* row = model.contact_rows.data() + c * model.stride;
+        for (std::size_t k = 0; k < model.stride; ++k) kick[k] = certificate.kick[k] * std::abs(row[k]);
+        kernels::row_products(groups, model.stride, model.stride, certificate.envelope.data(), kick.data(),
+                              of_groups.data());
+        for (std::size_t g = 0; g < groups; ++g) certificate.push[g * model.contact_count + c] = of_groups[g];
+    }
+}
+
+}  // namespace
+
+void set_skipping(StringModel& model) {
+    set_flight(model);
+    set_bounds_of_modes(model);
+    set_groups(model);
+    set_pushes(model);
+}
+
+}  // namespace jawari
