@@ -12,8 +12,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 using Check = std::optional<Failure>;
 
 struct Range {
-    double low;
-    double high;
+    double low = 0;
+    double high = 0;
     bool low_included = true;
     bool high_included = true;
 };

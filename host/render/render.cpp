@@ -107,7 +107,6 @@ MaybeError render(const RenderOptions& options) {
     const auto rendered = render_score(model.value(), score.value(), settings, sink);
     if (!rendered) return rendered.error();
     stats.score = rendered.value();
-    started = thread_cpu_s();
     if (stats_file) {
         if (auto error = stats_file->write(stats_json(stats))) return error;
         if (auto error = stats_file->flush()) return error;

@@ -60,7 +60,7 @@ Damping read_damping(const Value& value, const std::string& path, Problems& prob
         case DampingModel::None:
             break;
     }
-    ObjectReader(value, path, {"model"}, problems);
+    const ObjectReader refuses_other_keys(value, path, {"model"}, problems);
     return NoLoss{};
 }
 

@@ -18,7 +18,7 @@ std::string quantity_with_unit(Quantity quantity) {
 }
 
 std::string probe_name(const ProbeDescription& probe) {
-    const std::string name = quantity_with_unit(probe.quantity);
+    std::string name = quantity_with_unit(probe.quantity);
     if (probe.quantity == Quantity::Energy) return name;
     if (probe.quantity == Quantity::ContactForce) return name + "@contact" + std::to_string(probe.contact);
     return name + "@" + shortest(probe.position_m);
