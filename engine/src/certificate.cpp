@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "contact.h"
+#include "impact_law.h"
 #include "kernels.h"
 #include "skipping_kernels.h"
 
@@ -19,10 +20,8 @@ constexpr std::uint64_t unknown_frame = std::numeric_limits<std::uint64_t>::max(
 
 double frame_length(const StringModel& model) { return model.step_s * static_cast<double>(model.steps_per_frame); }
 
-/// Newton's and the passive law look half a step ahead.
 double lookahead(const StringModel& model) {
-    const bool looks_ahead = model.law == ImpactLaw::Newton || model.law == ImpactLaw::Passive;
-    return looks_ahead ? model.step_s / 2 : 0.0;
+    return looks_ahead(model.law) ? model.step_s / 2 : 0.0;
 }
 
 std::size_t group_count(const StringModel& model) { return model.certificate.group_begin.size() - 1; }

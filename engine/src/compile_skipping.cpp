@@ -5,6 +5,7 @@
 
 #include "jawari/step_coefficients.h"
 #include "kernels.h"
+#include "near_frame.h"
 
 namespace jawari {
 namespace {
@@ -95,6 +96,7 @@ void set_skipping(StringModel& model) {
     set_bounds_of_modes(model);
     set_groups(model);
     set_pushes(model);
+    set_responses(model);
 }
 
 }  // namespace jawari

@@ -6,6 +6,7 @@
 #include "jawari/render.h"
 #include "kernels.h"
 #include "metering.h"
+#include "near_frame.h"
 #include "skipping_kernels.h"
 
 namespace jawari {
@@ -56,15 +57,13 @@ void pass_freely(const StringModel& model, StringState& state) {
 
 /// The frame with contacts that may close. What was flown stays valid if none did.
 void pass_near(const StringModel& model, StringState& state) {
+    const bool in_contact_space = state.skipping.near && !model.response.empty();
     if (!state.skipping.near) choose_all_contacts(model, state);
-    const bool struck = step_through(model, state);
+    const bool struck = in_contact_space ? solve_near_frame(model, state) : step_through(model, state);
     state.counters.near_frames += 1;
+    if (in_contact_space || !struck) adopt_flight(state);
     advance_bounds(model, state);
-    if (struck) {
-        note_stepped_gaps(model, state);
-    } else {
-        adopt_flight(state);
-    }
+    if (struck) note_stepped_gaps(model, state);
 }
 
 /// Everything is stepped; nothing is known of the gaps afterwards.
@@ -80,25 +79,23 @@ bool is_finite(const StringState& state) {
            kernels::all_finite(state.active_modes, state.velocity.data());
 }
 
-void advance_awake(const StringModel& model, StringState& state) {
+/// Returns false if the state has become non-finite.
+bool advance_awake(const StringModel& model, StringState& state) {
     const bool moving = state.contact.moving_count > 0;
     if (!may_skip(model, state) || moving || (!state.skipping.certificate && model.contact_count > 0)) {
         pass_uniformly(model, state);
-        return;
+        return is_finite(state);
     }
     if (needs_refresh(state)) refresh_bounds(model, state);
-    if (state.asleep) return;
-    if (!fly(model, state)) {
-        // Left for the check at the frame's end.
-        adopt_flight(state);
-        return;
-    }
+    if (state.asleep) return true;
+    if (!fly(model, state)) return false;
     if (choose_near_contacts(model, state)) {
         pass_near(model, state);
-    } else {
-        pass_freely(model, state);
-        advance_bounds(model, state);
+        return is_finite(state);
     }
+    pass_freely(model, state);
+    advance_bounds(model, state);
+    return true;
 }
 
 }  // namespace
@@ -106,13 +103,13 @@ void advance_awake(const StringModel& model, StringState& state) {
 void advance_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
     std::fill(state.contact.frame_impulse.begin(), state.contact.frame_impulse.end(), 0.0);
     if (state.asleep && (is_excited(state) || state.contact.moving_count > 0)) notice_change(model, state);
-    if (!state.asleep) advance_awake(model, state);
+    if (!state.asleep && !advance_awake(model, state)) {
+        put_to_rest(model, state);
+        state.counters.nonfinite_resets += 1;
+    }
     if (state.asleep) {
         state.counters.asleep_frames += 1;
         state.counters.steps += model.steps_per_frame;
-    } else if (!is_finite(state)) {
-        put_to_rest(model, state);
-        state.counters.nonfinite_resets += 1;
     }
     if (state.metering == Metering::Frame) meter_frame(model, state);
     state.frame += 1;

@@ -24,6 +24,9 @@ inline bool is_candidate(ImpactLaw law, const ContactMoment& c) {
     return c.gap + change / 2 <= 0;
 }
 
+/// Newton and passive restitution look half a step ahead.
+inline bool looks_ahead(ImpactLaw law) { return law == ImpactLaw::Newton || law == ImpactLaw::Passive; }
+
 /// tau [m]: the step's complementarity problem is 0 <= y+ - tau  perp  lambda >= 0.
 inline double target_gap(ImpactLaw law, const ContactMoment& c) {
     switch (law) {

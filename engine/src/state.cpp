@@ -5,7 +5,7 @@
 #include "certificate.h"
 #include "contact.h"
 #include "jawari/energy.h"
-#include "kernels.h"
+#include "near_kernels.h"
 
 namespace jawari {
 namespace {
@@ -53,6 +53,21 @@ CertificateState make_certificate_state(const StringModel& model) {
     return bounds;
 }
 
+NearState make_near_state(const StringModel& model) {
+    NearState near;
+    if (model.response.empty()) return near;
+    const std::size_t count = model.contact_count;
+    for (auto* array : {&near.rates_free, &near.rates, &near.impulses}) array->assign(count * model.response_stride, 0.0);
+    near.force_impulses.assign(model.response_stride, 0.0);
+    near.lanes.assign(count * kernels::steps_per_run * lane_padding, 0.0);
+    near.force_row.assign(model.stride, 0.0);
+    near.displacement.assign(model.stride, 0.0);
+    near.velocity.assign(model.stride, 0.0);
+    for (auto* array : {&near.gap, &near.gap_before, &near.impulse}) array->assign(model.contact_stride, 0.0);
+    near.rows.assign(count, nullptr);
+    return near;
+}
+
 }  // namespace
 
 StringState make_string_state(const StringModel& model, Metering metering, Skipping skipping) {
@@ -64,6 +79,7 @@ StringState make_string_state(const StringModel& model, Metering metering, Skipp
     state.contact = make_contact_state(model);
     state.lcp = make_lcp_workspace(model.contact_count);
     state.certificate = make_certificate_state(model);
+    state.near_frame = make_near_state(model);
     state.metering = metering;
     state.skipping = skipping;
     reset(model, state);

@@ -25,7 +25,9 @@ struct CertificateModel {
     AlignedVector<double> kick;       ///< rho w/mu: what an impulse on phi = 1 adds to r at most [1/kg m]
     std::vector<std::size_t> group_begin;  ///< first contact of each group, and the contact count at the end
     AlignedVector<double> envelope;   ///< max over a group's contacts of |phi_k|, groups x stride
-    std::vector<double> push;         ///< speed that 1 N s at contact c gives group g at most [1/kg], groups x contact_count
+    /// What 1 N s at contact c does to group g at most, groups x contact_count: how far a gap falls within a frame [m/(N s)] where
+    /// the model has a response table, else the speed it gets [1/kg].
+    std::vector<double> push;
 };
 
 /// Arrays over modes have length `stride` (the mode count N padded by modes at rest); rows over contacts are `stride` apart.
@@ -53,6 +55,10 @@ struct StringModel {
     std::size_t steps_per_frame = 1;  ///< m
     FlightModel flight;
     CertificateModel certificate;
+    /// Gap rate at contact c, n steps after an impulse of 1 N s at contact s: response[(s contact_count + c) response_stride + n]
+    /// [1/kg]; empty where the table would be too large.
+    AlignedVector<double> response;
+    std::size_t response_stride = 0;  ///< padded(steps_per_frame)
 
     // -- energy (energy.h): H = sum kinetic v^2 + potential (q - h v/2)^2, or + potential q^2 for the theta scheme
     AlignedVector<double> kinetic;      ///< mu (1+e+A)/(8 w), or mu/2 for the theta scheme; 0 where w = 0

@@ -94,6 +94,21 @@ struct CertificateState {
     double strongest_extent = 0;          ///< largest |q_k| bound ever
 };
 
+/// Scratch of a frame solved in contact space; contacts x steps, rows response_stride apart.
+struct NearState {
+    AlignedVector<double> rates_free;  ///< S v of free flight at each step, in the order of ContactState::near
+    AlignedVector<double> rates;       ///< the same with the impulses so far
+    AlignedVector<double> impulses;    ///< lambda at each step
+    AlignedVector<double> force_impulses;  ///< h F at each step
+    AlignedVector<double> force_row;       ///< (w/mu) phi(x) of the excitation
+    std::size_t first_impulse = 0;         ///< step of the frame's first impulse
+    AlignedVector<double> lanes;
+    AlignedVector<double> displacement, velocity;  ///< over modes
+    AlignedVector<double> gap, gap_before, impulse;  ///< at the frame's start
+    std::vector<const double*> rows;
+    Counters counters;
+};
+
 struct StringState {
     AlignedVector<double> displacement;  ///< q
     AlignedVector<double> velocity;      ///< backward velocity v
@@ -104,6 +119,7 @@ struct StringState {
     std::size_t steps_left = 0;          ///< of the current frame, including the current step
     bool asleep = false;
     CertificateState certificate;
+    NearState near_frame;
     Skipping skipping;
     AlignedVector<double> force_row;     ///< phi_k(x) of the excitation [m^(-1/2)]
     double force = 0;                    ///< excitation at the step [N]
