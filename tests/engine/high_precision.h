@@ -14,9 +14,11 @@ using Real =
 /// it costs 18 of them.
 struct Definition {
     Real A, e, d, w;
+    Real s;             ///< 1 + e + A
     Real damped_phase;  ///< W h, 0 when overdamped
     /// d ln d / d ln(W h): by how much an error of the sine's argument is amplified; 0 when overdamped.
     Real argument_condition;
+    Real argument_condition_of_s;  ///< the same for s
 };
 
 inline Definition definition_of(double omega_in, double sigma_in, double h_in) {
@@ -34,10 +36,12 @@ inline Definition definition_of(double omega_in, double sigma_in, double h_in) {
         result.A = 2 * exp(-sigma * h) * cos(result.damped_phase);
     }
     result.d = 1 + result.e - result.A;
+    result.s = 1 + result.e + result.A;
     result.w = result.d / (omega * omega * h * h);
-    if (result.damped_phase > 0 && result.d > 0) {
-        result.argument_condition =
-            2 * exp(-sigma * h) * result.damped_phase * sin(result.damped_phase) / result.d;
+    if (result.damped_phase > 0 && result.d > 0 && result.s > 0) {
+        const Real slope = 2 * exp(-sigma * h) * result.damped_phase * sin(result.damped_phase);
+        result.argument_condition = slope / result.d;
+        result.argument_condition_of_s = -slope / result.s;
     }
     return result;
 }

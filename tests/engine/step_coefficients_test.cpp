@@ -29,8 +29,8 @@ double relative_error(double value, const Real& truth) {
 /// (two in the factors of W^2 and one in their product, all halved by the root, one in the root, one in the
 /// product with h), of which each costs unit_roundoff * |d ln d/d ln(W h)|. A condition up to 2 (that of a
 /// square) is part of the 1e-15.
-double allowance(const Definition& definition) {
-    const double condition = std::abs(static_cast<double>(definition.argument_condition));
+double allowance(const Real& argument_condition) {
+    const double condition = std::abs(static_cast<double>(argument_condition));
     return 1e-15 + 3.5 * unit_roundoff * std::max(0.0, condition - 2);
 }
 
@@ -38,10 +38,11 @@ void expect_exact(double omega, double sigma, double h) {
     const Definition truth = definition_of(omega, sigma, h);
     const ExactFactors factors = exact_factors(omega, sigma, h);
     const StepCoefficients step = exact_step(omega, sigma, h);
-    const double allowed = allowance(truth);
+    const double allowed = allowance(truth.argument_condition);
     SCOPED_TRACE(testing::Message() << "omega h = " << omega * h << ", sigma/omega = " << sigma / omega
                                     << ", condition = " << truth.argument_condition);
     EXPECT_LE(relative_error(factors.d, truth.d), allowed);
+    EXPECT_LE(relative_error(factors.s, truth.s), allowance(truth.argument_condition_of_s));
     EXPECT_LE(relative_error(step.mobility, truth.w), allowed);
     EXPECT_LE(relative_error(step.restoring, -truth.d / h), allowed);
     // e = exp(-2 sigma h): one rounding of the argument, amplified by it, and one of the exponential.
