@@ -88,7 +88,7 @@ MaybeError render(const RenderOptions& options) {
     RenderStats stats;
     stats.midi = options.midi;
     stats.preset = options.preset;
-    double started = thread_cpu_s();
+    const double started = thread_cpu_s();
     const auto model = compile_instrument(preset.value().instrument, options.rate_hz);
     stats.cpu_compile_s = thread_cpu_s() - started;
     if (!model) return invalid_input(preset.value().file, model.failure());
