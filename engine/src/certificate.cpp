@@ -18,13 +18,17 @@ constexpr double safety = 1 + 1e-9;
 constexpr std::uint64_t refresh_period = 16;
 constexpr std::uint64_t unknown_frame = std::numeric_limits<std::uint64_t>::max();
 
-double frame_length(const StringModel& model) { return model.step_s * static_cast<double>(model.steps_per_frame); }
+double frame_length(const StringModel& model) {
+    return model.step_s * static_cast<double>(model.steps_per_frame);
+}
 
 double lookahead(const StringModel& model) {
     return looks_ahead(model.law) ? model.step_s / 2 : 0.0;
 }
 
-std::size_t group_count(const StringModel& model) { return model.certificate.group_begin.size() - 1; }
+std::size_t group_count(const StringModel& model) {
+    return model.certificate.group_begin.size() - 1;
+}
 
 /// Upper bound of the excitation's impulse over the coming frame [N s].
 double force_impulse(const StringModel& model, const StringState& state) {
@@ -47,8 +51,8 @@ void drop_weak_modes(const StringModel& model, StringState& state, const kernels
         --active;
     }
     active = std::min(padded(active), model.stride);
-    for (auto* array : {&state.displacement, &state.velocity, &state.velocity_before, &state.displacement_flown,
-                        &state.velocity_flown}) {
+    for (auto* array : {&state.displacement, &state.velocity, &state.velocity_before,
+                        &state.displacement_flown, &state.velocity_flown}) {
         std::fill(array->begin() + static_cast<std::ptrdiff_t>(active), array->end(), 0.0);
     }
     state.active_modes = active;
@@ -62,8 +66,8 @@ bool has_faded(const StringState& state, const kernels::LargestBounds& largest) 
 
 /// At rest, until a force or a moving obstacle wakes the string.
 void fall_asleep(StringState& state) {
-    for (auto* array : {&state.displacement, &state.velocity, &state.velocity_before, &state.displacement_flown,
-                        &state.velocity_flown}) {
+    for (auto* array : {&state.displacement, &state.velocity, &state.velocity_before,
+                        &state.displacement_flown, &state.velocity_flown}) {
         std::fill(array->begin(), array->end(), 0.0);
     }
     state.asleep = true;
@@ -76,8 +80,8 @@ void set_force_kicks(const StringModel& model, StringState& state) {
     for (std::size_t k = 0; k < model.stride; ++k) {
         kick[k] = model.certificate.kick[k] * std::abs(state.force_row[k]);
     }
-    kernels::row_products(group_count(model), model.stride, model.stride, model.certificate.envelope.data(), kick.data(),
-                          bounds.group_force_kick.data());
+    kernels::row_products(group_count(model), model.stride, model.stride, model.certificate.envelope.data(),
+                          kick.data(), bounds.group_force_kick.data());
 }
 
 void set_group_bounds(const StringModel& model, StringState& state) {
@@ -86,13 +90,16 @@ void set_group_bounds(const StringModel& model, StringState& state) {
     const double* envelope = model.certificate.envelope.data();
     const std::size_t n = state.active_modes;
     kernels::row_products(groups, n, model.stride, envelope, bounds.speed.data(), bounds.group_speed.data());
-    kernels::row_products(groups, n, model.stride, envelope, bounds.detour.data(), bounds.group_detour.data());
-    kernels::row_products(groups, n, model.stride, envelope, bounds.extent.data(), bounds.group_clearance.data());
+    kernels::row_products(groups, n, model.stride, envelope, bounds.detour.data(),
+                          bounds.group_detour.data());
+    kernels::row_products(groups, n, model.stride, envelope, bounds.extent.data(),
+                          bounds.group_clearance.data());
     for (std::size_t g = 0; g < groups; ++g) {
         bounds.group_speed[g] *= safety;
         bounds.group_detour[g] *= safety;
         double highest = -std::numeric_limits<double>::infinity();
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1]; ++c) {
+        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
+             ++c) {
             highest = std::max(highest, state.contact.height[c]);
             bounds.open_until[c] -= bounds.group_odometer[g];
         }
@@ -118,7 +125,8 @@ std::size_t find_expired(const StringModel& model, StringState& state, double im
     for (std::size_t g = 0; g < group_count(model); ++g) {
         if (stays_clear(model, state, g)) continue;
         const double limit = bounds.group_odometer[g] + frame_travel(model, group_speed(state, g, impulse));
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1]; ++c) {
+        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
+             ++c) {
             if (!(bounds.open_until[c] > limit)) bounds.expired[expired++] = static_cast<std::uint32_t>(c);
         }
     }
@@ -134,8 +142,9 @@ void compute_frame_gaps(const StringModel& model, StringState& state, std::size_
         const auto c = bounds.expired[i];
         if (bounds.frame_gap_at[c] != state.frame) list[unknown++] = c;
     }
-    kernels::indexed_row_products(list.data(), unknown, state.active_modes, model.stride, model.contact_rows.data(),
-                                  state.displacement.data(), bounds.frame_gap.data());
+    kernels::indexed_row_products(list.data(), unknown, state.active_modes, model.stride,
+                                  model.contact_rows.data(), state.displacement.data(),
+                                  bounds.frame_gap.data());
     for (std::size_t i = 0; i < unknown; ++i) {
         const auto c = list[i];
         bounds.frame_gap[c] -= state.contact.height[c];
@@ -150,14 +159,16 @@ std::size_t group_of(const StringModel& model, std::size_t contact) {
 }
 
 /// Contacts that their gap at the frame's start and the speed bound certify leave the list.
-std::size_t certify_by_speed(const StringModel& model, StringState& state, std::size_t expired, double impulse) {
+std::size_t certify_by_speed(const StringModel& model, StringState& state, std::size_t expired,
+                             double impulse) {
     CertificateState& bounds = state.certificate;
     std::size_t left = 0;
     for (std::size_t i = 0; i < expired; ++i) {
         const auto c = bounds.expired[i];
         const std::size_t g = group_of(model, c);
         bounds.open_until[c] = bounds.group_odometer[g] + bounds.frame_gap[c];
-        if (!(bounds.frame_gap[c] > frame_travel(model, group_speed(state, g, impulse)))) bounds.expired[left++] = c;
+        if (!(bounds.frame_gap[c] > frame_travel(model, group_speed(state, g, impulse))))
+            bounds.expired[left++] = c;
     }
     return left;
 }
@@ -194,8 +205,10 @@ void set_margins(const StringModel& model, StringState& state, double impulse) {
     for (std::size_t g = 0; g < group_count(model); ++g) {
         const double limit = bounds.group_odometer[g] + frame_travel(model, group_speed(state, g, impulse));
         const bool clear = stays_clear(model, state, g);
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1]; ++c) {
-            // Of contacts certified by both ends the margin is known; their odometer reading is the frame's end.
+        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
+             ++c) {
+            // Of contacts certified by both ends the margin is known; their odometer reading is the frame's
+            // end.
             if (bounds.frame_gap_at[c] == state.frame + 1) continue;
             bounds.margin[c] = clear ? bounds.group_clearance[g] - lookahead(model) * bounds.group_speed[g]
                                      : bounds.open_until[c] - limit;
@@ -207,7 +220,8 @@ void set_group_margins(const StringModel& model, StringState& state) {
     CertificateState& bounds = state.certificate;
     for (std::size_t g = 0; g < group_count(model); ++g) {
         double smallest = std::numeric_limits<double>::infinity();
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1]; ++c) {
+        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
+             ++c) {
             if (state.contact.is_near[c] == 0) smallest = std::min(smallest, bounds.margin[c]);
         }
         bounds.group_margin[g] = smallest;
@@ -283,7 +297,8 @@ bool admit_pushed_contacts(const StringModel& model, StringState& state) JAWARI_
         const double push = bounds.group_push[g] + push_of_step(model, state, g);
         if (bounds.group_margin[g] > push) continue;
         double smallest = std::numeric_limits<double>::infinity();
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1]; ++c) {
+        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
+             ++c) {
             if (contact.is_near[c] != 0) continue;
             if (bounds.margin[c] > push) {
                 smallest = std::min(smallest, bounds.margin[c]);
@@ -301,14 +316,16 @@ void charge_impulses(const StringModel& model, StringState& state) JAWARI_REALTI
     CertificateState& bounds = state.certificate;
     bounds.outdated = true;
     if (state.contact.near_count == model.contact_count) return;
-    for (std::size_t g = 0; g < group_count(model); ++g) bounds.group_push[g] += push_of_step(model, state, g);
+    for (std::size_t g = 0; g < group_count(model); ++g)
+        bounds.group_push[g] += push_of_step(model, state, g);
 }
 
 void advance_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME {
     CertificateState& bounds = state.certificate;
     const double impulse = force_impulse(model, state);
     for (std::size_t g = 0; g < group_count(model); ++g) {
-        bounds.group_odometer[g] += group_speed(state, g, impulse) * frame_length(model) + bounds.group_push[g];
+        bounds.group_odometer[g] +=
+            group_speed(state, g, impulse) * frame_length(model) + bounds.group_push[g];
         bounds.group_push[g] = 0;
     }
     bounds.age += 1;

@@ -14,7 +14,9 @@
 namespace jawari {
 namespace {
 
-double square(double x) { return x * x; }
+double square(double x) {
+    return x * x;
+}
 
 /// Below this share of the largest Delassus diagonal a contact cannot move the string (it sits on an end).
 constexpr double negligible_mobility = 1e-12;
@@ -50,7 +52,8 @@ void set_step(StringModel& model, const SceneDescription& scene) {
     model.theta = scene.scheme == Scheme::Theta ? scene.theta : 1.0;
     model.law = scene.law;
     model.step_s = 1 / scene.contact_rate_hz;
-    model.steps_per_frame = static_cast<std::size_t>(std::lround(scene.contact_rate_hz / scene.output_rate_hz));
+    model.steps_per_frame =
+        static_cast<std::size_t>(std::lround(scene.contact_rate_hz / scene.output_rate_hz));
     for (auto* array : {&model.carry, &model.change, &model.restoring, &model.mobility, &model.kinetic,
                         &model.potential, &model.dissipation}) {
         array->assign(model.stride, 0.0);
@@ -82,14 +85,18 @@ void append_contact(StringModel& model, const ContactDescription& contact, const
     model.contact_count += 1;
 }
 
-/// Rows of the contacts that can move the string; the others are dropped, or refused if they press on it at rest.
-std::optional<Failure> set_contacts(StringModel& model, const StringDescription& string, const std::string& place) {
+/// Rows of the contacts that can move the string; the others are dropped, or refused if they press on it at
+/// rest.
+std::optional<Failure> set_contacts(StringModel& model, const StringDescription& string,
+                                    const std::string& place) {
     std::vector<AlignedVector<double>> rows(string.contacts.size(), AlignedVector<double>(model.stride, 0.0));
     std::vector<double> diagonal(string.contacts.size());
     for (std::size_t i = 0; i < string.contacts.size(); ++i) {
         const ContactDescription& contact = string.contacts[i];
-        write_mode_shapes(model, contact.position_m, contact.side == Side::Below ? 1.0 : -1.0, rows[i].data());
-        diagonal[i] = kernels::weighted_square(model.stride, model.mobility.data(), 1, rows[i].data(), 0, rows[i].data());
+        write_mode_shapes(model, contact.position_m, contact.side == Side::Below ? 1.0 : -1.0,
+                          rows[i].data());
+        diagonal[i] = kernels::weighted_square(model.stride, model.mobility.data(), 1, rows[i].data(), 0,
+                                               rows[i].data());
     }
     const double largest = diagonal.empty() ? 0.0 : *std::max_element(diagonal.begin(), diagonal.end());
     for (std::size_t i = 0; i < string.contacts.size(); ++i) {
@@ -119,8 +126,8 @@ void set_compliance(StringModel& model) {
         std::fill(response.begin(), response.end(), 0.0);
         kernels::add_impulse(model.stride, model.step_s * model.theta, model.mobility.data(),
                              model.contact_rows.data() + c * model.stride, response.data());
-        kernels::row_products(model.contact_count, model.stride, model.stride, model.contact_rows.data(), response.data(),
-                              model.compliance.data() + c * model.contact_stride);
+        kernels::row_products(model.contact_count, model.stride, model.stride, model.contact_rows.data(),
+                              response.data(), model.compliance.data() + c * model.contact_stride);
     }
 }
 
@@ -174,8 +181,8 @@ void set_probes(StringModel& model, const StringDescription& string) {
 
 bool coefficients_are_finite(const StringModel& model) {
     const std::size_t n = model.stride;
-    for (const auto* array : {&model.change, &model.restoring, &model.mobility, &model.kinetic, &model.potential,
-                              &model.initial_displacement, &model.initial_velocity}) {
+    for (const auto* array : {&model.change, &model.restoring, &model.mobility, &model.kinetic,
+                              &model.potential, &model.initial_displacement, &model.initial_velocity}) {
         if (!kernels::all_finite(n, array->data())) return false;
     }
     return std::all_of(model.sigma.begin(), model.sigma.end(), [](double sigma) { return sigma >= 0; });
@@ -190,7 +197,8 @@ Result<StringModel> compile_string(const StringDescription& string, const SceneD
     set_compliance(model);
     if (scene.scheme == Scheme::Exact) set_skipping(model);
     if (!set_initial_state(model, string.initial)) {
-        return Failure{place + ".contacts", "obstacles from both sides", "obstacles between which the string fits"};
+        return Failure{place + ".contacts", "obstacles from both sides",
+                       "obstacles between which the string fits"};
     }
     set_probes(model, string);
     if (!coefficients_are_finite(model)) {

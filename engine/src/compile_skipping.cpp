@@ -10,25 +10,28 @@
 namespace jawari {
 namespace {
 
-double square(double x) { return x * x; }
+double square(double x) {
+    return x * x;
+}
 
 /// Up to this many contacts each has bounds of its own; more share them in groups of neighbours.
 constexpr std::size_t contacts_with_own_bounds = 64;
 constexpr std::size_t contacts_per_group = 16;
 
-/// d = 0 and s = 0 are possible (undamped modes at multiples of the step's Nyquist rate): their bounds become huge, not infinite,
-/// and what they bound is then simply evaluated.
+/// d = 0 and s = 0 are possible (undamped modes at multiples of the step's Nyquist rate): their bounds become
+/// huge, not infinite, and what they bound is then simply evaluated.
 constexpr double smallest_factor = 1e-100;
 
 void set_flight(StringModel& model) {
     FlightModel& flight = model.flight;
-    for (auto* array : {&flight.qq, &flight.qv, &flight.vq, &flight.vv, &flight.q_held, &flight.v_held, &flight.q_ramp,
-                        &flight.v_ramp}) {
+    for (auto* array : {&flight.qq, &flight.qv, &flight.vq, &flight.vv, &flight.q_held, &flight.v_held,
+                        &flight.q_ramp, &flight.v_ramp}) {
         array->assign(model.stride, 0.0);
     }
     const double mu = model.linear_density_kg_per_m;
     for (std::size_t k = 0; k < model.mode_count; ++k) {
-        const FlightFactors f = flight_factors(model.omega[k], model.sigma[k], model.step_s, model.steps_per_frame);
+        const FlightFactors f =
+            flight_factors(model.omega[k], model.sigma[k], model.step_s, model.steps_per_frame);
         flight.qq[k] = f.qq;
         flight.qv[k] = f.qv;
         flight.vq[k] = f.vq;
@@ -42,7 +45,8 @@ void set_flight(StringModel& model) {
 
 void set_bounds_of_modes(StringModel& model) {
     CertificateModel& certificate = model.certificate;
-    for (auto* array : {&certificate.stiffness, &certificate.extent_q, &certificate.extent_v, &certificate.kick}) {
+    for (auto* array :
+         {&certificate.stiffness, &certificate.extent_q, &certificate.extent_v, &certificate.kick}) {
         array->assign(model.stride, 0.0);
     }
     const double h = model.step_s;
@@ -68,7 +72,8 @@ void set_groups(StringModel& model) {
         double* envelope = certificate.envelope.data() + g * model.stride;
         for (std::size_t c = certificate.group_begin[g]; c < certificate.group_begin[g + 1]; ++c) {
             const double* row = model.contact_rows.data() + c * model.stride;
-            for (std::size_t k = 0; k < model.mode_count; ++k) envelope[k] = std::max(envelope[k], std::abs(row[k]));
+            for (std::size_t k = 0; k < model.mode_count; ++k)
+                envelope[k] = std::max(envelope[k], std::abs(row[k]));
         }
     }
 }

@@ -31,7 +31,8 @@ double gap_response(const StringModel& model, const ContactState& contact, std::
     return response;
 }
 
-/// Scales a truncated solution by clamp(-lambda'(y_free - y_before)/(lambda' A lambda), 0, 1): impacts then do no work > 0.
+/// Scales a truncated solution by clamp(-lambda'(y_free - y_before)/(lambda' A lambda), 0, 1): impacts then
+/// do no work > 0.
 void make_passive(const StringModel& model, ContactState& contact) {
     double linear = 0;
     double quadratic = 0;
@@ -62,7 +63,8 @@ void place_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
     near_products(model, state, state.velocity, contact.gap_rate);
     for (std::size_t i = 0; i < contact.near_count; ++i) {
         const auto c = contact.near[i];
-        contact.gap_before[c] = contact.gap[c] - model.step_s * contact.gap_rate[c] - contact.height_before[c];
+        contact.gap_before[c] =
+            contact.gap[c] - model.step_s * contact.gap_rate[c] - contact.height_before[c];
         contact.gap[c] -= contact.height[c];
     }
 }
@@ -71,8 +73,8 @@ void join_step(const StringModel& model, StringState& state, std::size_t c) JAWA
     ContactState& contact = state.contact;
     const auto row_product = [&](const AlignedVector<double>& x) {
         const auto index = static_cast<std::uint32_t>(c);
-        kernels::indexed_row_products(&index, 1, state.active_modes, model.stride, model.contact_rows.data(), x.data(),
-                                      contact.residual.data());
+        kernels::indexed_row_products(&index, 1, state.active_modes, model.stride, model.contact_rows.data(),
+                                      x.data(), contact.residual.data());
         return contact.residual[c];
     };
     contact.gap[c] = row_product(state.displacement) - contact.height[c];
@@ -186,7 +188,8 @@ void accept_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
     }
     state.counters.candidates += contact.candidate_count;
     for (std::size_t i = 0; i < contact.near_count; ++i) {
-        state.counters.worst_penetration_m = std::max(state.counters.worst_penetration_m, -contact.gap[contact.near[i]]);
+        state.counters.worst_penetration_m =
+            std::max(state.counters.worst_penetration_m, -contact.gap[contact.near[i]]);
     }
 }
 

@@ -9,13 +9,15 @@
 
 namespace jawari {
 
-inline bool is_excited(const StringState& state) { return state.force != 0 || state.force_rate != 0; }
+inline bool is_excited(const StringState& state) {
+    return state.force != 0 || state.force_rate != 0;
+}
 
 /// gap <- S q - b and gap_before <- the same one step earlier, for the near contacts.
 void place_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
-/// Contact `c` becomes near in the middle of a step: its gap, gap_before and gap_free are computed. velocity holds v_free,
-/// velocity_before the step's v.
+/// Contact `c` becomes near in the middle of a step: its gap, gap_before and gap_free are computed. velocity
+/// holds v_free, velocity_before the step's v.
 void join_step(const StringModel& model, StringState& state, std::size_t c) JAWARI_REALTIME;
 
 /// Moves the obstacles that are on their way by one step.
@@ -27,10 +29,12 @@ void note_approach(const StringModel& model, StringState& state) JAWARI_REALTIME
 /// gap_free <- the gaps at the step's end without impulses; state.velocity holds v_free.
 void predict_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
-/// Fills candidates and offset = y_free - tau by the impact law. Returns true if one is violated (so that lambda > 0 somewhere).
+/// Fills candidates and offset = y_free - tau by the impact law. Returns true if one is violated (so that
+/// lambda > 0 somewhere).
 bool select_candidates(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
-/// impulse <- solution of the step's complementarity problem; a truncated solution is scaled until it is passive.
+/// impulse <- solution of the step's complementarity problem; a truncated solution is scaled until it is
+/// passive.
 void solve_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
 /// impulse <- 0 at all near contacts.

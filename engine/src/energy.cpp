@@ -12,8 +12,8 @@ namespace {
 double energy_of(const StringModel& model, const AlignedVector<double>& displacement,
                  const AlignedVector<double>& velocity) {
     const double lag = model.scheme == Scheme::Exact ? model.step_s / 2 : 0.0;
-    return kernels::energy(model.stride, model.kinetic.data(), model.potential.data(), lag, displacement.data(),
-                           velocity.data());
+    return kernels::energy(model.stride, model.kinetic.data(), model.potential.data(), lag,
+                           displacement.data(), velocity.data());
 }
 
 double dissipated_in_step(const StringModel& model, const StringState& state) {
@@ -24,12 +24,14 @@ double dissipated_in_step(const StringModel& model, const StringState& state) {
         // mu sum (1-e)/(4w) (v+ + v)^2
         return kernels::weighted_square(n, model.dissipation.data(), 1, v_now, 1, v_before);
     }
-    // mu sum [2 sigma h v_theta^2 + (theta - 1/2) (Dv^2 + omega^2 Dq^2)]; kinetic = mu/2, potential = mu omega^2/2
+    // mu sum [2 sigma h v_theta^2 + (theta - 1/2) (Dv^2 + omega^2 Dq^2)]; kinetic = mu/2, potential = mu
+    // omega^2/2
     const double theta = model.theta;
     return kernels::weighted_square(n, model.dissipation.data(), theta, v_now, 1 - theta, v_before) +
-           (2 * theta - 1) * (kernels::weighted_square(n, model.kinetic.data(), 1, v_now, -1, v_before) +
-                              kernels::weighted_square(n, model.potential.data(), 1, state.displacement.data(), -1,
-                                                       state.displacement_before.data()));
+           (2 * theta - 1) *
+               (kernels::weighted_square(n, model.kinetic.data(), 1, v_now, -1, v_before) +
+                kernels::weighted_square(n, model.potential.data(), 1, state.displacement.data(), -1,
+                                         state.displacement_before.data()));
 }
 
 struct StepWork {
@@ -37,7 +39,8 @@ struct StepWork {
     double player = 0;
 };
 
-/// Work of the impulses over the span that each scheme's balance names: two steps for the exact scheme, one for theta.
+/// Work of the impulses over the span that each scheme's balance names: two steps for the exact scheme, one
+/// for theta.
 StepWork impulse_work(const StringModel& model, const StringState& state) {
     const ContactState& contact = state.contact;
     StepWork work;
@@ -71,7 +74,8 @@ double force_work(const StringModel& model, const StringState& state) {
     double now = 0;
     double before = 0;
     kernels::row_products(1, model.stride, model.stride, state.force_row.data(), state.velocity.data(), &now);
-    kernels::row_products(1, model.stride, model.stride, state.force_row.data(), state.velocity_before.data(), &before);
+    kernels::row_products(1, model.stride, model.stride, state.force_row.data(), state.velocity_before.data(),
+                          &before);
     const double share = model.scheme == Scheme::Exact ? 0.5 : model.theta;
     return model.step_s * state.force * (share * now + (1 - share) * before);
 }

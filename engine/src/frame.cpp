@@ -14,7 +14,8 @@ namespace {
 
 bool may_skip(const StringModel& model, const StringState& state) {
     const Skipping& skipping = state.skipping;
-    const bool any = skipping.flight || skipping.certificate || skipping.near || skipping.lazy || skipping.sleep;
+    const bool any =
+        skipping.flight || skipping.certificate || skipping.near || skipping.lazy || skipping.sleep;
     return any && model.scheme == Scheme::Exact && state.metering != Metering::Step;
 }
 

@@ -1,4 +1,5 @@
-// The impact laws as target gaps: which contacts are candidates in a step, and the gap tau below which they may not end it.
+// The impact laws as target gaps: which contacts are candidates in a step, and the gap tau below which they
+// may not end it.
 #pragma once
 
 #include <algorithm>
@@ -25,13 +26,16 @@ inline bool is_candidate(ImpactLaw law, const ContactMoment& c) {
 }
 
 /// Newton and passive restitution look half a step ahead.
-inline bool looks_ahead(ImpactLaw law) { return law == ImpactLaw::Newton || law == ImpactLaw::Passive; }
+inline bool looks_ahead(ImpactLaw law) {
+    return law == ImpactLaw::Newton || law == ImpactLaw::Passive;
+}
 
 /// tau [m]: the step's complementarity problem is 0 <= y+ - tau  perp  lambda >= 0.
 inline double target_gap(ImpactLaw law, const ContactMoment& c) {
     switch (law) {
         case ImpactLaw::Newton:
-            if (c.scheme == Scheme::Theta) return c.gap + ((1 - c.theta) - c.theta * c.restitution) * c.approach;
+            if (c.scheme == Scheme::Theta)
+                return c.gap + ((1 - c.theta) - c.theta * c.restitution) * c.approach;
             return c.gap - c.restitution * (c.gap - c.gap_before);
         case ImpactLaw::Passive:
             return c.gap <= c.gap_before ? c.gap - c.restitution * (c.gap - c.gap_before) : c.gap_before;

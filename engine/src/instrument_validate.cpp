@@ -59,8 +59,7 @@ Check check_string(const std::string& place, const InstrumentStringDescription& 
 
 /// Pressing fret f must leave every later fret below the line from its top to the bridge.
 Check check_frets(const FretsDescription& frets) {
-    if (auto failure = check_count("frets.height_m", frets.height_m.size(), 0, limits::frets))
-        return failure;
+    if (auto failure = check_count("frets.height_m", frets.height_m.size(), 0, limits::frets)) return failure;
     if (auto failure = check("frets.restitution", frets.restitution, 0, 1)) return failure;
     for (std::size_t j = 0; j < frets.height_m.size(); ++j) {
         const double height = frets.height_m[j];

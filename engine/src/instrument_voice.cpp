@@ -66,8 +66,8 @@ void start_voice(const InstrumentModel& model, const InstrumentStringModel& stri
     voice.fading = false;
     voice.fade_frame = 0;
     voice.pluck_force_N = stopped.full_force_N * std::pow(velocity, model.height_exponent);
-    reset(stopped.ringing, voice.string);
     std::copy(stopped.pluck_row.begin(), stopped.pluck_row.end(), voice.string.force_row.begin());
+    reset(stopped.ringing, voice.string);
 }
 
 void damp_voice(const InstrumentStringModel& string, Voice& voice) JAWARI_REALTIME {
@@ -94,8 +94,9 @@ double advance_voice(const InstrumentModel& model, const InstrumentStringModel& 
     advance_frame(coefficients, voice.string);
     voice.age += 1;
     double output = 0;
-    kernels::row_products(1, voice.string.active_modes, coefficients.stride, string.stopped[voice.fret].output_row.data(),
-                          voice.string.velocity.data(), &output);
+    kernels::row_products(1, voice.string.active_modes, coefficients.stride,
+                          string.stopped[voice.fret].output_row.data(), voice.string.velocity.data(),
+                          &output);
     if (voice.fading) output = faded(model, voice, output);
     if (has_ended(model, string, voice)) finish(voice, finished);
     return output;
@@ -111,6 +112,9 @@ void accumulate(const Counters& more, Counters& sum) JAWARI_REALTIME {
     sum.impulses += more.impulses;
     sum.solves += more.solves;
     sum.truncated_solves += more.truncated_solves;
+    sum.flown_frames += more.flown_frames;
+    sum.near_frames += more.near_frames;
+    sum.asleep_frames += more.asleep_frames;
     sum.nonfinite_resets += more.nonfinite_resets;
     sum.worst_residual_m = std::max(sum.worst_residual_m, more.worst_residual_m);
     sum.worst_penetration_m = std::max(sum.worst_penetration_m, more.worst_penetration_m);

@@ -14,8 +14,8 @@ using Lanes = hn::ScalableTag<double>;
 using Vec = hn::Vec<Lanes>;
 
 void free_velocity(std::size_t n, const double* HWY_RESTRICT carry, const double* HWY_RESTRICT change,
-                   const double* HWY_RESTRICT restoring, const double* HWY_RESTRICT q, const double* HWY_RESTRICT v,
-                   double* HWY_RESTRICT out) {
+                   const double* HWY_RESTRICT restoring, const double* HWY_RESTRICT q,
+                   const double* HWY_RESTRICT v, double* HWY_RESTRICT out) {
     const Lanes d;
     for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
         const Vec velocity = hn::Load(d, v + k);
@@ -29,14 +29,16 @@ void free_velocity(std::size_t n, const double* HWY_RESTRICT carry, const double
 double row_product(std::size_t n, const double* HWY_RESTRICT row, const double* HWY_RESTRICT x) {
     const Lanes d;
     Vec sum = hn::Zero(d);
-    for (std::size_t k = 0; k < n; k += hn::Lanes(d)) sum = hn::MulAdd(hn::Load(d, row + k), hn::Load(d, x + k), sum);
+    for (std::size_t k = 0; k < n; k += hn::Lanes(d))
+        sum = hn::MulAdd(hn::Load(d, row + k), hn::Load(d, x + k), sum);
     return hn::GetLane(hn::SumOfLanes(d, sum));
 }
 
 /// Four rows share each load of x. Every row is summed in the same order as by row_product.
-HWY_INLINE void four_row_products(std::size_t n, const double* HWY_RESTRICT row0, const double* HWY_RESTRICT row1,
-                                  const double* HWY_RESTRICT row2, const double* HWY_RESTRICT row3,
-                                  const double* HWY_RESTRICT x, double (&sums)[4]) {
+HWY_INLINE void four_row_products(std::size_t n, const double* HWY_RESTRICT row0,
+                                  const double* HWY_RESTRICT row1, const double* HWY_RESTRICT row2,
+                                  const double* HWY_RESTRICT row3, const double* HWY_RESTRICT x,
+                                  double (&sums)[4]) {
     const Lanes d;
     Vec s0 = hn::Zero(d), s1 = hn::Zero(d), s2 = hn::Zero(d), s3 = hn::Zero(d);
     for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
@@ -71,15 +73,15 @@ void indexed_row_products(const std::uint32_t* HWY_RESTRICT indices, std::size_t
     double sums[4];
     for (; i + 4 <= count; i += 4) {
         const std::uint32_t* c = indices + i;
-        four_row_products(n, rows + c[0] * stride, rows + c[1] * stride, rows + c[2] * stride, rows + c[3] * stride, x,
-                          sums);
+        four_row_products(n, rows + c[0] * stride, rows + c[1] * stride, rows + c[2] * stride,
+                          rows + c[3] * stride, x, sums);
         for (std::size_t j = 0; j < 4; ++j) out[c[j]] = sums[j];
     }
     for (; i < count; ++i) out[indices[i]] = row_product(n, rows + indices[i] * stride, x);
 }
 
-void add_impulse(std::size_t n, double scale, const double* HWY_RESTRICT mobility, const double* HWY_RESTRICT row,
-                 double* HWY_RESTRICT v) {
+void add_impulse(std::size_t n, double scale, const double* HWY_RESTRICT mobility,
+                 const double* HWY_RESTRICT row, double* HWY_RESTRICT v) {
     const Lanes d;
     const Vec factor = hn::Set(d, scale);
     for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
@@ -96,8 +98,8 @@ void add_scaled(std::size_t n, double scale, const double* HWY_RESTRICT x, doubl
     }
 }
 
-double energy(std::size_t n, const double* HWY_RESTRICT kinetic, const double* HWY_RESTRICT potential, double lag,
-              const double* HWY_RESTRICT q, const double* HWY_RESTRICT v) {
+double energy(std::size_t n, const double* HWY_RESTRICT kinetic, const double* HWY_RESTRICT potential,
+              double lag, const double* HWY_RESTRICT q, const double* HWY_RESTRICT v) {
     const Lanes d;
     const Vec minus_lag = hn::Set(d, -lag);
     Vec sum = hn::Zero(d);
@@ -110,8 +112,8 @@ double energy(std::size_t n, const double* HWY_RESTRICT kinetic, const double* H
     return hn::GetLane(hn::SumOfLanes(d, sum));
 }
 
-double weighted_square(std::size_t n, const double* HWY_RESTRICT weight, double now, const double* HWY_RESTRICT x_now,
-                       double before, const double* HWY_RESTRICT x_before) {
+double weighted_square(std::size_t n, const double* HWY_RESTRICT weight, double now,
+                       const double* HWY_RESTRICT x_now, double before, const double* HWY_RESTRICT x_before) {
     const Lanes d;
     const Vec a = hn::Set(d, now);
     const Vec b = hn::Set(d, before);
@@ -131,7 +133,9 @@ double finite_probe(std::size_t n, const double* HWY_RESTRICT x) {
     return hn::GetLane(hn::SumOfLanes(d, sum));
 }
 
-std::size_t target() { return static_cast<std::size_t>(HWY_TARGET); }
+std::size_t target() {
+    return static_cast<std::size_t>(HWY_TARGET);
+}
 
 }  // namespace jawari::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -149,13 +153,13 @@ HWY_EXPORT(weighted_square);
 HWY_EXPORT(finite_probe);
 HWY_EXPORT(target);
 
-void free_velocity(std::size_t n, const double* carry, const double* change, const double* restoring, const double* q,
-                   const double* v, double* out) noexcept {
+void free_velocity(std::size_t n, const double* carry, const double* change, const double* restoring,
+                   const double* q, const double* v, double* out) noexcept {
     HWY_DYNAMIC_DISPATCH(free_velocity)(n, carry, change, restoring, q, v, out);
 }
 
-void row_products(std::size_t rows_count, std::size_t n, std::size_t stride, const double* rows, const double* x,
-                  double* out) noexcept {
+void row_products(std::size_t rows_count, std::size_t n, std::size_t stride, const double* rows,
+                  const double* x, double* out) noexcept {
     HWY_DYNAMIC_DISPATCH(row_products)(rows_count, n, stride, rows, x, out);
 }
 
@@ -182,7 +186,9 @@ double weighted_square(std::size_t n, const double* weight, double now, const do
     return HWY_DYNAMIC_DISPATCH(weighted_square)(n, weight, now, x_now, before, x_before);
 }
 
-bool all_finite(std::size_t n, const double* x) noexcept { return HWY_DYNAMIC_DISPATCH(finite_probe)(n, x) == 0; }
+bool all_finite(std::size_t n, const double* x) noexcept {
+    return HWY_DYNAMIC_DISPATCH(finite_probe)(n, x) == 0;
+}
 
 const char* instruction_set() noexcept {
     return hwy::TargetName(static_cast<std::int64_t>(HWY_DYNAMIC_DISPATCH(target)()));

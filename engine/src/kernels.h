@@ -1,5 +1,5 @@
-// The loops over modes, written once over a lane type (Highway) and dispatched at run time. Arrays are padded and aligned as
-// aligned.h says. Sums differ between instruction sets by rounding only.
+// The loops over modes, written once over a lane type (Highway) and dispatched at run time. Arrays are padded
+// and aligned as aligned.h says. Sums differ between instruction sets by rounding only.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,12 @@
 namespace jawari::kernels {
 
 /// out <- carry v + change v + restoring q
-void free_velocity(std::size_t n, const double* carry, const double* change, const double* restoring, const double* q,
-                   const double* v, double* out) noexcept;
+void free_velocity(std::size_t n, const double* carry, const double* change, const double* restoring,
+                   const double* q, const double* v, double* out) noexcept;
 
 /// out[c] = sum_{k<n} rows[c * stride + k] x[k], c < rows_count
-void row_products(std::size_t rows_count, std::size_t n, std::size_t stride, const double* rows, const double* x, double* out) noexcept;
+void row_products(std::size_t rows_count, std::size_t n, std::size_t stride, const double* rows,
+                  const double* x, double* out) noexcept;
 
 /// out[c] = sum_{k<n} rows[c * stride + k] x[k] for the `count` rows c that `indices` names
 void indexed_row_products(const std::uint32_t* indices, std::size_t count, std::size_t n, std::size_t stride,

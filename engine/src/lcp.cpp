@@ -8,7 +8,8 @@
 namespace jawari {
 namespace {
 
-// A contact whose squared pivot is below this share of its diagonal moves together with the active ones (coincident contacts).
+// A contact whose squared pivot is below this share of its diagonal moves together with the active ones
+// (coincident contacts).
 constexpr double dependent_pivot = 1e-13;
 constexpr int predictor_sweeps = 2;
 
@@ -55,7 +56,8 @@ void gather_column(const Problem& p, std::size_t contact, AlignedVector<double>&
     for (std::size_t i = 0; i < p.work.active_count; ++i) column[i] = p.a(contact, p.work.active[i]);
 }
 
-/// Appends a contact to the active set and a row to the factor; false if it depends on the active ones or there is no room.
+/// Appends a contact to the active set and a row to the factor; false if it depends on the active ones or
+/// there is no room.
 bool append_active(const Problem& p, std::size_t contact) {
     LcpWorkspace& work = p.work;
     if (work.active_count == work.capacity) return false;
@@ -159,14 +161,16 @@ bool is_active(const LcpWorkspace& work, std::size_t contact) {
     return std::find(work.active.begin(), end, contact) != end;
 }
 
-/// Raises the entering contact's impulse until its own residual is zero; active contacts that would turn negative leave on the
-/// way. Returns false if that takes more than the pivots left, finds no room, or the problem is infeasible.
+/// Raises the entering contact's impulse until its own residual is zero; active contacts that would turn
+/// negative leave on the way. Returns false if that takes more than the pivots left, finds no room, or the
+/// problem is infeasible.
 bool bring_in(const Problem& p, std::size_t entering, std::size_t& pivots_left) {
     LcpWorkspace& work = p.work;
     double violation = p.residual[entering];
     for (; pivots_left > 0; --pivots_left) {
         gather_column(p, entering, work.direction);
-        solve_with_factor(p, work.direction);  // active impulses change by -direction per unit of the entering one
+        solve_with_factor(
+            p, work.direction);  // active impulses change by -direction per unit of the entering one
         double curvature = p.a(entering, entering);
         for (std::size_t i = 0; i < work.active_count; ++i) {
             curvature -= work.direction[i] * p.a(entering, work.active[i]);
@@ -217,8 +221,8 @@ LcpWorkspace make_lcp_workspace(std::size_t contacts, std::size_t largest_active
 }
 
 LcpOutcome solve_lcp(std::span<const double> A, std::size_t stride, std::span<const double> r,
-                     std::span<const std::uint32_t> candidates, std::span<double> lambda, std::span<double> residual,
-                     LcpWorkspace& workspace) JAWARI_REALTIME {
+                     std::span<const std::uint32_t> candidates, std::span<double> lambda,
+                     std::span<double> residual, LcpWorkspace& workspace) JAWARI_REALTIME {
     Problem p{A, stride, r, candidates, lambda, residual, workspace};
     double lowest = 0;
     for (const auto c : candidates) lowest = std::min(lowest, r[c]);

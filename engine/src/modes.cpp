@@ -8,7 +8,9 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double square(double x) { return x * x; }
+double square(double x) {
+    return x * x;
+}
 
 /// f_k for real k, so that a wavenumber can be found for any frequency.
 double stretched_frequency(const PhysicalModes& modes, double f0, double k) {
@@ -17,7 +19,8 @@ double stretched_frequency(const PhysicalModes& modes, double f0, double k) {
                                                                    : k * f0 * (1 + B * k * k / 2);
 }
 
-/// The real k > 0 with stretched_frequency(k) = f: both laws increase and lie above k f_0, so bisection is safe.
+/// The real k > 0 with stretched_frequency(k) = f: both laws increase and lie above k f_0, so bisection is
+/// safe.
 double mode_number_at(const PhysicalModes& modes, double f0, double f) {
     double low = 0;
     double high = f / f0;
@@ -29,12 +32,12 @@ double mode_number_at(const PhysicalModes& modes, double f0, double f) {
     return high;
 }
 
-double valette_decay(const ValetteLoss& loss, const StringDescription& string, const PhysicalModes& modes, double f0k,
-                     double fk) {
+double valette_decay(const ValetteLoss& loss, const StringDescription& string, const PhysicalModes& modes,
+                     double f0k, double fk) {
     const double mu = string.linear_density_kg_per_m;
-    const double R = 2 * pi * loss.air_viscosity_Pa_s +
-                     2 * pi * loss.diameter_m *
-                         std::sqrt(pi * loss.air_viscosity_Pa_s * loss.air_density_kg_per_m3 * fk);
+    const double R =
+        2 * pi * loss.air_viscosity_Pa_s +
+        2 * pi * loss.diameter_m * std::sqrt(pi * loss.air_viscosity_Pa_s * loss.air_density_kg_per_m3 * fk);
     const double air = R / (2 * pi * mu) * f0k / square(fk);
     const double viscoelastic = 4 * square(string.length_m) * modes.inharmonicity * mu *
                                 loss.viscoelastic_loss_angle_rad / modes.tension_N * f0k * square(f0k) / fk;
@@ -88,7 +91,8 @@ double sin_pi(double t) {
 }  // namespace
 
 Modes modes_of(const StringDescription& string) {
-    if (const auto* physical = std::get_if<PhysicalModes>(&string.modes)) return physical_modes(string, *physical);
+    if (const auto* physical = std::get_if<PhysicalModes>(&string.modes))
+        return physical_modes(string, *physical);
     const auto& table = std::get<ModeTable>(string.modes);
     Modes modes;
     for (const double f : table.frequency_hz) modes.omega.push_back(2 * pi * f);
@@ -108,7 +112,8 @@ double mode_shape(std::size_t k, double x, double length_m) {
 
 double pluck_coordinate(std::size_t k, const Pluck& pluck, double length_m) {
     const double wavenumber = static_cast<double>(k) * pi / length_m;
-    const double slope_change = pluck.height_m * length_m / (pluck.position_m * (length_m - pluck.position_m));
+    const double slope_change =
+        pluck.height_m * length_m / (pluck.position_m * (length_m - pluck.position_m));
     return slope_change * mode_shape(k, pluck.position_m, length_m) / square(wavenumber);
 }
 

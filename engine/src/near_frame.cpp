@@ -27,7 +27,8 @@ const double* response(const StringModel& model, std::size_t struck, std::size_t
     return model.response.data() + (struck * model.contact_count + contact) * model.response_stride;
 }
 
-/// How far a unit impulse at one contact can lower the gap of another within a frame; with the laws' lookahead.
+/// How far a unit impulse at one contact can lower the gap of another within a frame; with the laws'
+/// lookahead.
 double largest_push(const StringModel& model, std::size_t struck, std::size_t contact) {
     const double* rate = response(model, struck, contact);
     const double ahead = looks_ahead(model.law) ? 0.5 : 0.0;
@@ -61,7 +62,8 @@ void run_free(const StringModel& model, StringState& state, std::size_t first) {
     const double* force_row = near.force_row.data();
     if (is_excited(state)) {
         std::fill(near.force_row.begin(), near.force_row.end(), 0.0);
-        kernels::add_impulse(model.stride, 1.0, model.mobility.data(), state.force_row.data(), near.force_row.data());
+        kernels::add_impulse(model.stride, 1.0, model.mobility.data(), state.force_row.data(),
+                             near.force_row.data());
         for (std::size_t n = 0; n < model.steps_per_frame; ++n) {
             near.force_impulses[n] = model.step_s * (state.force + static_cast<double>(n) * state.force_rate);
         }
@@ -103,7 +105,8 @@ void spread_impulses(const StringModel& model, StringState& state, std::size_t n
         for (std::size_t j = 0; j < contact.near_count; ++j) {
             const double* rate = response(model, struck, contact.near[j]);
             double* rates = near.rates.data() + j * model.response_stride + n;
-            for (std::size_t later = 1; later < model.steps_per_frame - n; ++later) rates[later] += impulse * rate[later];
+            for (std::size_t later = 1; later < model.steps_per_frame - n; ++later)
+                rates[later] += impulse * rate[later];
         }
     }
 }
@@ -164,7 +167,8 @@ std::size_t gather_struck(const StringModel& model, StringState& state) {
     return struck;
 }
 
-/// The frame's end receives the response of the modes to the impulses, run for unit mobility and scaled at the end.
+/// The frame's end receives the response of the modes to the impulses, run for unit mobility and scaled at
+/// the end.
 void run_impulses(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
     state.active_modes = model.stride;
@@ -181,7 +185,8 @@ void run_impulses(const StringModel& model, StringState& state) {
     kernels::run_modes(run);
     kernels::add_impulse(model.stride, 1.0, model.mobility.data(), near.displacement.data(),
                          state.displacement_flown.data());
-    kernels::add_impulse(model.stride, 1.0, model.mobility.data(), near.velocity.data(), state.velocity_flown.data());
+    kernels::add_impulse(model.stride, 1.0, model.mobility.data(), near.velocity.data(),
+                         state.velocity_flown.data());
 }
 
 }  // namespace

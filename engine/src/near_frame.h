@@ -1,5 +1,5 @@
-// A frame in contact space: the free gap rates of the near contacts come from one run over the modes, their impulses from a
-// causal loop over the contacts alone, and the modes receive the impulses in a second run.
+// A frame in contact space: the free gap rates of the near contacts come from one run over the modes, their
+// impulses from a causal loop over the contacts alone, and the modes receive the impulses in a second run.
 #pragma once
 
 #include "jawari/model.h"
@@ -8,14 +8,16 @@
 
 namespace jawari {
 
-/// Contacts up to this many responses (doubles) are solved in contact space; beyond, frames are stepped with the near contacts.
+/// Contacts up to this many responses (doubles) are solved in contact space; beyond, frames are stepped with
+/// the near contacts.
 inline constexpr std::size_t largest_response_table = std::size_t{1} << 21;
 
 /// Fills model.response and the pushes that follow from it, if the table is not too large.
 void set_responses(StringModel& model);
 
-/// The frame with the contacts in state.contact.near, from the state at its start. displacement_flown, velocity_flown hold its end
-/// in free flight and receive its end with impulses. Returns true if impulses happened.
+/// The frame with the contacts in state.contact.near, from the state at its start. displacement_flown,
+/// velocity_flown hold its end in free flight and receive its end with impulses. Returns true if impulses
+/// happened.
 bool solve_near_frame(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
 }  // namespace jawari

@@ -37,7 +37,8 @@ HWY_INLINE void run_block(const ModeRun& run, std::size_t first_step, std::size_
             for (std::size_t f = 0; f < run.drivers; ++f) {
                 const Vec impulse = hn::Set(d, run.impulses[f * run.impulse_stride + first_step + n]);
                 const double* row = run.driver_rows[f] + k;
-                for (std::size_t i = 0; i < width; ++i) v[i] = hn::MulAdd(hn::Load(d, row + i * lanes), impulse, v[i]);
+                for (std::size_t i = 0; i < width; ++i)
+                    v[i] = hn::MulAdd(hn::Load(d, row + i * lanes), impulse, v[i]);
             }
         }
         for (std::size_t i = 0; i < width; ++i) q[i] = hn::MulAdd(h, v[i], q[i]);
@@ -64,7 +65,8 @@ void run_steps(const ModeRun& run, std::size_t first_step, std::size_t steps) {
         std::fill_n(run.lanes + p * steps_per_run * lane_padding, steps * lane_padding, 0.0);
     }
     std::size_t k = 0;
-    for (; k + width * lanes <= run.modes; k += width * lanes) run_block<width, driven>(run, first_step, steps, k);
+    for (; k + width * lanes <= run.modes; k += width * lanes)
+        run_block<width, driven>(run, first_step, steps, k);
     for (; k < run.modes; k += lanes) run_block<1, driven>(run, first_step, steps, k);
     for (std::size_t p = 0; p < run.probes; ++p) {
         for (std::size_t n = 0; n < steps; ++n) {
@@ -95,7 +97,9 @@ namespace jawari::kernels {
 
 HWY_EXPORT(run_modes);
 
-void run_modes(const ModeRun& run) noexcept { HWY_DYNAMIC_DISPATCH(run_modes)(run); }
+void run_modes(const ModeRun& run) noexcept {
+    HWY_DYNAMIC_DISPATCH(run_modes)(run);
+}
 
 }  // namespace jawari::kernels
 #endif

@@ -1,4 +1,5 @@
-// The modes of one string run through the fine steps of a frame, in registers: a block of modes at a time, all steps of it.
+// The modes of one string run through the fine steps of a frame, in registers: a block of modes at a time,
+// all steps of it.
 #pragma once
 
 #include <cstddef>

@@ -12,14 +12,16 @@ double probe_value(const StringModel& model, const StringState& state, std::size
     double value = 0;
     switch (model.probes[probe].quantity) {
         case Quantity::Displacement:
-            kernels::row_products(1, state.active_modes, model.stride, row, state.displacement.data(), &value);
+            kernels::row_products(1, state.active_modes, model.stride, row, state.displacement.data(),
+                                  &value);
             break;
         case Quantity::Velocity:
             kernels::row_products(1, state.active_modes, model.stride, row, state.velocity.data(), &value);
             break;
         case Quantity::ContactForce: {
             const auto contact = model.contact_of_description[model.probes[probe].contact];
-            if (contact >= 0) value = state.contact.frame_impulse[static_cast<std::size_t>(contact)] / frame_s;
+            if (contact >= 0)
+                value = state.contact.frame_impulse[static_cast<std::size_t>(contact)] / frame_s;
             break;
         }
         case Quantity::Energy:

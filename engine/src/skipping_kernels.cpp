@@ -57,8 +57,8 @@ bool add_force_response(std::size_t n, const FlightModel& flight, double force, 
 }
 
 LargestBounds mode_bounds(std::size_t n, const StringModel& model, const double* HWY_RESTRICT q,
-                          const double* HWY_RESTRICT v, double* HWY_RESTRICT speed, double* HWY_RESTRICT extent,
-                          double* HWY_RESTRICT detour) {
+                          const double* HWY_RESTRICT v, double* HWY_RESTRICT speed,
+                          double* HWY_RESTRICT extent, double* HWY_RESTRICT detour) {
     const Lanes d;
     const CertificateModel& certificate = model.certificate;
     const double h = model.step_s;
@@ -79,15 +79,16 @@ LargestBounds mode_bounds(std::size_t n, const StringModel& model, const double*
         const Vec r = hn::Sqrt(hn::MulAdd(stiffness, middle2, v2));
         const Vec a = hn::Sqrt(hn::MulAdd(hn::Load(d, certificate.extent_q.data() + k), middle2,
                                           hn::Mul(hn::Load(d, certificate.extent_v.data() + k), v2)));
-        // The velocity obeys the same recurrence as the displacement, so the same bound holds for its own rate of change.
+        // The velocity obeys the same recurrence as the displacement, so the same bound holds for its own
+        // rate of change.
         const Vec lost = hn::Sub(hn::Load(d, model.carry.data() + k), one);
         const Vec change = hn::MulAdd(hn::Add(lost, hn::Load(d, model.change.data() + k)), velocity,
                                       hn::Mul(hn::Load(d, model.restoring.data() + k), displacement));
         const Vec acceleration = hn::Mul(change, per_step);
         const Vec v_next = hn::Add(velocity, change);
         const Vec v_middle = hn::MulAdd(minus_half_step, acceleration, v_next);
-        const Vec curvature = hn::Sqrt(
-            hn::MulAdd(stiffness, hn::Mul(v_middle, v_middle), hn::Mul(acceleration, acceleration)));
+        const Vec curvature =
+            hn::Sqrt(hn::MulAdd(stiffness, hn::Mul(v_middle, v_middle), hn::Mul(acceleration, acceleration)));
         hn::Store(r, d, speed + k);
         hn::Store(a, d, extent + k);
         hn::Store(hn::Min(hn::Mul(sagitta, curvature), hn::Add(a, a)), d, detour + k);
@@ -112,13 +113,13 @@ bool fly(std::size_t n, const FlightModel& flight, const double* q, const double
     return HWY_DYNAMIC_DISPATCH(fly)(n, flight, q, v, q_out, v_out);
 }
 
-bool add_force_response(std::size_t n, const FlightModel& flight, double force, double rate, const double* row, double* q,
-                        double* v) noexcept {
+bool add_force_response(std::size_t n, const FlightModel& flight, double force, double rate,
+                        const double* row, double* q, double* v) noexcept {
     return HWY_DYNAMIC_DISPATCH(add_force_response)(n, flight, force, rate, row, q, v);
 }
 
-LargestBounds mode_bounds(std::size_t n, const StringModel& model, const double* q, const double* v, double* speed,
-                          double* extent, double* detour) noexcept {
+LargestBounds mode_bounds(std::size_t n, const StringModel& model, const double* q, const double* v,
+                          double* speed, double* extent, double* detour) noexcept {
     return HWY_DYNAMIC_DISPATCH(mode_bounds)(n, model, q, v, speed, extent, detour);
 }
 

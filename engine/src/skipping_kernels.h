@@ -11,17 +11,19 @@ namespace jawari::kernels {
 bool fly(std::size_t n, const FlightModel& flight, const double* q, const double* v, double* q_out,
          double* v_out) noexcept;
 
-/// Adds the response to a force F + rate n (n = 0..m-1) on `row` to the frame's end. Returns false if a result is not finite.
-bool add_force_response(std::size_t n, const FlightModel& flight, double force, double rate, const double* row, double* q,
-                        double* v) noexcept;
+/// Adds the response to a force F + rate n (n = 0..m-1) on `row` to the frame's end. Returns false if a
+/// result is not finite.
+bool add_force_response(std::size_t n, const FlightModel& flight, double force, double rate,
+                        const double* row, double* q, double* v) noexcept;
 
 struct LargestBounds {
     double speed = 0;
     double extent = 0;
 };
 
-/// speed <- r_k, extent <- bound of |q_k|, detour <- min(T^2/8 bound of |acceleration|, 2 extent), for all later free steps.
-LargestBounds mode_bounds(std::size_t n, const StringModel& model, const double* q, const double* v, double* speed,
-                          double* extent, double* detour) noexcept;
+/// speed <- r_k, extent <- bound of |q_k|, detour <- min(T^2/8 bound of |acceleration|, 2 extent), for all
+/// later free steps.
+LargestBounds mode_bounds(std::size_t n, const StringModel& model, const double* q, const double* v,
+                          double* speed, double* extent, double* detour) noexcept;
 
 }  // namespace jawari::kernels

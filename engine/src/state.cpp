@@ -13,10 +13,10 @@ namespace {
 ContactState make_contact_state(const StringModel& model) {
     const std::size_t n = model.contact_stride;
     ContactState contact;
-    for (auto* array : {&contact.gap, &contact.gap_before, &contact.height, &contact.height_before,
-                        &contact.height_rise_before, &contact.height_rate, &contact.height_target, &contact.impulse,
-                        &contact.frame_impulse, &contact.gap_free, &contact.gap_rate, &contact.offset,
-                        &contact.residual}) {
+    for (auto* array :
+         {&contact.gap, &contact.gap_before, &contact.height, &contact.height_before,
+          &contact.height_rise_before, &contact.height_rate, &contact.height_target, &contact.impulse,
+          &contact.frame_impulse, &contact.gap_free, &contact.gap_rate, &contact.offset, &contact.residual}) {
         array->assign(n, 0.0);
     }
     contact.moving_steps.assign(n, 0);
@@ -29,7 +29,8 @@ ContactState make_contact_state(const StringModel& model) {
 void place_obstacles(const StringModel& model, ContactState& contact) {
     std::copy(model.contact_height.begin(), model.contact_height.end(), contact.height.begin());
     contact.height_before = contact.height;
-    for (auto* array : {&contact.height_rise_before, &contact.impulse, &contact.frame_impulse, &contact.gap_rate}) {
+    for (auto* array :
+         {&contact.height_rise_before, &contact.impulse, &contact.frame_impulse, &contact.gap_rate}) {
         std::fill(array->begin(), array->end(), 0.0);
     }
     std::fill(contact.moving_steps.begin(), contact.moving_steps.end(), std::uint64_t{0});
@@ -41,8 +42,9 @@ CertificateState make_certificate_state(const StringModel& model) {
     const std::size_t groups = std::max<std::size_t>(model.certificate.group_begin.size(), 1) - 1;
     CertificateState bounds;
     for (auto* array : {&bounds.speed, &bounds.detour, &bounds.extent}) array->assign(model.stride, 0.0);
-    for (auto* array : {&bounds.group_speed, &bounds.group_detour, &bounds.group_clearance, &bounds.group_odometer,
-                        &bounds.group_push, &bounds.group_margin, &bounds.group_force_kick}) {
+    for (auto* array :
+         {&bounds.group_speed, &bounds.group_detour, &bounds.group_clearance, &bounds.group_odometer,
+          &bounds.group_push, &bounds.group_margin, &bounds.group_force_kick}) {
         array->assign(groups, 0.0);
     }
     for (auto* array : {&bounds.open_until, &bounds.margin, &bounds.frame_gap, &bounds.frame_end_gap}) {
@@ -57,7 +59,8 @@ NearState make_near_state(const StringModel& model) {
     NearState near;
     if (model.response.empty()) return near;
     const std::size_t count = model.contact_count;
-    for (auto* array : {&near.rates_free, &near.rates, &near.impulses}) array->assign(count * model.response_stride, 0.0);
+    for (auto* array : {&near.rates_free, &near.rates, &near.impulses})
+        array->assign(count * model.response_stride, 0.0);
     near.force_impulses.assign(model.response_stride, 0.0);
     near.lanes.assign(count * kernels::steps_per_run * lane_padding, 0.0);
     near.force_row.assign(model.stride, 0.0);
@@ -72,8 +75,9 @@ NearState make_near_state(const StringModel& model) {
 
 StringState make_string_state(const StringModel& model, Metering metering, Skipping skipping) {
     StringState state;
-    for (auto* array : {&state.displacement, &state.velocity, &state.displacement_before, &state.velocity_before,
-                        &state.displacement_flown, &state.velocity_flown, &state.force_row}) {
+    for (auto* array :
+         {&state.displacement, &state.velocity, &state.displacement_before, &state.velocity_before,
+          &state.displacement_flown, &state.velocity_flown, &state.force_row}) {
         array->assign(model.stride, 0.0);
     }
     state.contact = make_contact_state(model);
@@ -95,7 +99,8 @@ SceneState make_state(const SceneModel& model, Metering metering, Skipping skipp
 }
 
 void reset(const StringModel& model, StringState& state) noexcept {
-    std::copy(model.initial_displacement.begin(), model.initial_displacement.end(), state.displacement.begin());
+    std::copy(model.initial_displacement.begin(), model.initial_displacement.end(),
+              state.displacement.begin());
     std::copy(model.initial_velocity.begin(), model.initial_velocity.end(), state.velocity.begin());
     state.force = 0;
     state.force_rate = 0;

@@ -28,7 +28,8 @@ std::optional<AlignedVector<double>> held_displacement(const StringModel& model,
     AlignedVector<double> response(n);
     for (std::size_t c = 0; c < count; ++c) {
         std::fill(response.begin(), response.end(), 0.0);
-        kernels::add_impulse(n, 1.0, compliance_of_mode.data(), model.contact_rows.data() + c * n, response.data());
+        kernels::add_impulse(n, 1.0, compliance_of_mode.data(), model.contact_rows.data() + c * n,
+                             response.data());
         kernels::row_products(count, n, n, model.contact_rows.data(), response.data(),
                               static_compliance.data() + c * model.contact_stride);
     }
@@ -42,7 +43,8 @@ std::optional<AlignedVector<double>> held_displacement(const StringModel& model,
     if (!outcome.finished) return {};
     for (std::size_t c = 0; c < count; ++c) {
         if (force[c] > 0) {
-            kernels::add_impulse(n, force[c], compliance_of_mode.data(), model.contact_rows.data() + c * n, held.data());
+            kernels::add_impulse(n, force[c], compliance_of_mode.data(), model.contact_rows.data() + c * n,
+                                 held.data());
         }
     }
     return held;

@@ -21,8 +21,9 @@ void remember(const StringModel& model, StringState& state) {
 
 /// v_free = carry v + change v + restoring q + h (w/mu) phi(x) F
 void predict_velocity(const StringModel& model, StringState& state) {
-    kernels::free_velocity(state.active_modes, model.carry.data(), model.change.data(), model.restoring.data(),
-                           state.displacement.data(), state.velocity_before.data(), state.velocity.data());
+    kernels::free_velocity(state.active_modes, model.carry.data(), model.change.data(),
+                           model.restoring.data(), state.displacement.data(), state.velocity_before.data(),
+                           state.velocity.data());
     if (state.force != 0) {
         kernels::add_impulse(state.active_modes, model.step_s * state.force, model.mobility.data(),
                              state.force_row.data(), state.velocity.data());
@@ -43,7 +44,8 @@ void find_impulses(const StringModel& model, StringState& state) {
 /// q+ = q + h (theta v+ + (1 - theta) v)
 void advance_displacement(const StringModel& model, StringState& state) {
     const double h = model.step_s;
-    kernels::add_scaled(state.active_modes, h * model.theta, state.velocity.data(), state.displacement.data());
+    kernels::add_scaled(state.active_modes, h * model.theta, state.velocity.data(),
+                        state.displacement.data());
     if (model.theta < 1) {
         kernels::add_scaled(state.active_modes, h * (1 - model.theta), state.velocity_before.data(),
                             state.displacement.data());

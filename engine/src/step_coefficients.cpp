@@ -5,9 +5,12 @@
 namespace jawari {
 namespace {
 
-double square(double x) { return x * x; }
+double square(double x) {
+    return x * x;
+}
 
-/// v_free = e v + restoring q, written so that nothing cancels: v + expm1(-2 sigma h) v for light losses, e v for heavy ones.
+/// v_free = e v + restoring q, written so that nothing cancels: v + expm1(-2 sigma h) v for light losses, e v
+/// for heavy ones.
 void set_retained_velocity(StepCoefficients& step, double e, double e_minus_one) {
     step.carry = e > 0.5 ? 1 : 0;
     step.change = e > 0.5 ? e_minus_one : e;
@@ -45,7 +48,8 @@ StepCoefficients exact_step(double omega, double sigma, double h) {
 
 namespace {
 
-/// psi_m by its recurrence psi_{n+1} = A psi_n - e psi_{n-1}, for angles near a multiple of pi where the quotient of sines fails.
+/// psi_m by its recurrence psi_{n+1} = A psi_n - e psi_{n-1}, for angles near a multiple of pi where the
+/// quotient of sines fails.
 double psi_by_recurrence(double A, double e, std::size_t m) {
     double before = 0;
     double now = 1;
@@ -58,7 +62,7 @@ double psi_by_recurrence(double A, double e, std::size_t m) {
 }
 
 struct FreeMotion {
-    double psi = 1;                 ///< psi_m
+    double psi = 1;                   ///< psi_m
     double half_trace_minus_one = 0;  ///< trace(P^m)/2 - 1
 };
 
@@ -77,7 +81,8 @@ FreeMotion free_motion(double omega, double sigma, double h, std::size_t m) {
         } else if (angle < 1 || std::abs(std::sin(angle)) > 0.1) {
             motion.psi = decay_between * std::sin(W * t) / std::sin(angle);
         } else {
-            motion.psi = psi_by_recurrence(2 * std::exp(-sigma * h) * std::cos(angle), std::exp(-2 * sigma * h), m);
+            motion.psi =
+                psi_by_recurrence(2 * std::exp(-sigma * h) * std::cos(angle), std::exp(-2 * sigma * h), m);
         }
         return motion;
     }

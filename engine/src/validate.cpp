@@ -43,7 +43,9 @@ Check check_count(const std::string& place, std::size_t value, std::size_t low, 
     return Failure{place, std::to_string(value), std::to_string(low) + " to " + std::to_string(high)};
 }
 
-std::string indexed(const std::string& list, std::size_t i) { return list + "[" + std::to_string(i) + "]"; }
+std::string indexed(const std::string& list, std::size_t i) {
+    return list + "[" + std::to_string(i) + "]";
+}
 
 /// The first failure of several checks.
 template <class... Rest>
@@ -63,11 +65,12 @@ Check check_list(const std::string& place, const std::vector<double>& values, co
 }
 
 Check check_damping(const std::string& place, const ValetteLoss& loss) {
-    return first(check(place + ".diameter_m", loss.diameter_m, positive),
-                 check(place + ".air_viscosity_Pa_s", loss.air_viscosity_Pa_s, not_negative),
-                 check(place + ".air_density_kg_per_m3", loss.air_density_kg_per_m3, not_negative),
-                 check(place + ".viscoelastic_loss_angle_rad", loss.viscoelastic_loss_angle_rad, not_negative),
-                 check(place + ".inverse_quality", loss.inverse_quality, not_negative));
+    return first(
+        check(place + ".diameter_m", loss.diameter_m, positive),
+        check(place + ".air_viscosity_Pa_s", loss.air_viscosity_Pa_s, not_negative),
+        check(place + ".air_density_kg_per_m3", loss.air_density_kg_per_m3, not_negative),
+        check(place + ".viscoelastic_loss_angle_rad", loss.viscoelastic_loss_angle_rad, not_negative),
+        check(place + ".inverse_quality", loss.inverse_quality, not_negative));
 }
 
 Check check_damping(const std::string& place, const DecayTimePoints& decay) {
@@ -78,10 +81,12 @@ Check check_damping(const std::string& place, const DecayTimePoints& decay) {
             return failure;
         }
     }
-    const DecayTime& low = decay.points[0].frequency_hz <= decay.points[1].frequency_hz ? decay.points[0] : decay.points[1];
+    const DecayTime& low =
+        decay.points[0].frequency_hz <= decay.points[1].frequency_hz ? decay.points[0] : decay.points[1];
     const DecayTime& high = &low == &decay.points[0] ? decay.points[1] : decay.points[0];
     if (high.t60_s > low.t60_s) {
-        return Failure{place + ".points", printed(high.t60_s), "a t60_s at the higher frequency that is not longer"};
+        return Failure{place + ".points", printed(high.t60_s),
+                       "a t60_s at the higher frequency that is not longer"};
     }
     if (high.frequency_hz == low.frequency_hz && high.t60_s != low.t60_s) {
         return Failure{place + ".points", printed(high.frequency_hz), "two different frequencies"};
@@ -89,7 +94,9 @@ Check check_damping(const std::string& place, const DecayTimePoints& decay) {
     return {};
 }
 
-Check check_damping(const std::string&, const NoLoss&) { return {}; }
+Check check_damping(const std::string&, const NoLoss&) {
+    return {};
+}
 
 Check check_modes(const std::string& place, const PhysicalModes& modes) {
     if (auto failure = first(check_count(place + ".count", modes.count, 1, limits::modes),
@@ -97,7 +104,8 @@ Check check_modes(const std::string& place, const PhysicalModes& modes) {
                              check(place + ".inharmonicity", modes.inharmonicity, not_negative))) {
         return failure;
     }
-    return std::visit([&](const auto& damping) { return check_damping(place + ".damping", damping); }, modes.damping);
+    return std::visit([&](const auto& damping) { return check_damping(place + ".damping", damping); },
+                      modes.damping);
 }
 
 Check check_modes(const std::string& place, const ModeTable& table) {
@@ -117,8 +125,9 @@ std::size_t mode_count(const StringDescription& string) {
 
 Check check_initial(const std::string& place, const StringDescription& string) {
     if (const auto* pluck = std::get_if<Pluck>(&string.initial.shape)) {
-        return first(check(place + ".pluck.position_m", pluck->position_m, {0, string.length_m, false, false}),
-                     check(place + ".pluck.height_m", pluck->height_m, any_finite));
+        return first(
+            check(place + ".pluck.position_m", pluck->position_m, {0, string.length_m, false, false}),
+            check(place + ".pluck.height_m", pluck->height_m, any_finite));
     }
     if (const auto* modal = std::get_if<ModalState>(&string.initial.shape)) {
         const std::size_t n = mode_count(string);
@@ -166,11 +175,13 @@ Check check_probes(const std::string& place, const StringDescription& string) {
 }
 
 Check check_string(const std::string& place, const StringDescription& string) {
-    if (auto failure = first(check(place + ".length_m", string.length_m, {0.001, 1000}),
-                             check(place + ".linear_density_kg_per_m", string.linear_density_kg_per_m, positive))) {
+    if (auto failure =
+            first(check(place + ".length_m", string.length_m, {0.001, 1000}),
+                  check(place + ".linear_density_kg_per_m", string.linear_density_kg_per_m, positive))) {
         return failure;
     }
-    if (auto failure = std::visit([&](const auto& modes) { return check_modes(place + ".modes", modes); }, string.modes)) {
+    if (auto failure = std::visit([&](const auto& modes) { return check_modes(place + ".modes", modes); },
+                                  string.modes)) {
         return failure;
     }
     return first(check_initial(place + ".initial", string), check_contacts(place + ".contacts", string),
@@ -178,16 +189,17 @@ Check check_string(const std::string& place, const StringDescription& string) {
 }
 
 Check check_rates(const SceneDescription& scene) {
-    if (auto failure = first(check("output_rate_hz", scene.output_rate_hz, {limits::min_rate_hz, limits::max_rate_hz}),
-                             check("contact_rate_hz", scene.contact_rate_hz, {limits::min_rate_hz, limits::max_rate_hz}))) {
+    if (auto failure = first(
+            check("output_rate_hz", scene.output_rate_hz, {limits::min_rate_hz, limits::max_rate_hz}),
+            check("contact_rate_hz", scene.contact_rate_hz, {limits::min_rate_hz, limits::max_rate_hz}))) {
         return failure;
     }
     const double ratio = scene.contact_rate_hz / scene.output_rate_hz;
     const double nearest = std::max(1.0, std::round(ratio));
     if (std::abs(ratio - nearest) > 1e-9 * nearest) {
         return Failure{"contact_rate_hz", printed(scene.contact_rate_hz),
-                       "an integer multiple of output_rate_hz " + printed(scene.output_rate_hz) + ", the nearest being " +
-                           printed(nearest * scene.output_rate_hz)};
+                       "an integer multiple of output_rate_hz " + printed(scene.output_rate_hz) +
+                           ", the nearest being " + printed(nearest * scene.output_rate_hz)};
     }
     if (nearest > static_cast<double>(limits::steps_per_frame)) {
         return Failure{"contact_rate_hz", printed(scene.contact_rate_hz),
@@ -199,7 +211,8 @@ Check check_rates(const SceneDescription& scene) {
 Check check_scheme(const SceneDescription& scene) {
     if (scene.scheme == Scheme::Exact) return {};
     if (auto failure = check("theta", scene.theta, {0.5, 1})) return failure;
-    if (scene.law != ImpactLaw::Newton) return Failure{"law", "not newton", "newton, the only law of the theta scheme"};
+    if (scene.law != ImpactLaw::Newton)
+        return Failure{"law", "not newton", "newton, the only law of the theta scheme"};
     return {};
 }
 

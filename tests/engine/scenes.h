@@ -1,4 +1,5 @@
-// Scenes shared by the engine's tests: random ones within physical bounds, and the published bass without its file.
+// Scenes shared by the engine's tests: random ones within physical bounds, and the published bass without its
+// file.
 #pragma once
 
 #include <cmath>
@@ -14,7 +15,9 @@ struct RandomScene {
 
     explicit RandomScene(std::uint64_t seed) : random(seed) {}
 
-    double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
+    double uniform(double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    }
     double logarithmic(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
     std::size_t count(std::size_t low, std::size_t high) {
         return std::uniform_int_distribution<std::size_t>(low, high)(random);
@@ -29,7 +32,8 @@ struct RandomScene {
         modes.count = count(1, 90);
         modes.tension_N = uniform(30, 300);
         modes.inharmonicity = logarithmic(1e-6, 1e-3);
-        modes.inharmonicity_law = count(0, 1) == 0 ? InharmonicityLaw::SquareRoot : InharmonicityLaw::FirstOrder;
+        modes.inharmonicity_law =
+            count(0, 1) == 0 ? InharmonicityLaw::SquareRoot : InharmonicityLaw::FirstOrder;
         if (count(0, 4) == 0) {
             modes.damping = NoLoss{};
         } else if (count(0, 1) == 0) {
@@ -42,13 +46,15 @@ struct RandomScene {
         s.initial.shape = Pluck{s.length_m * uniform(0.05, 0.95), height};
         const std::size_t contacts = count(1, 30);
         for (std::size_t i = 0; i < contacts; ++i) {
-            // Every third contact sits close to its neighbour, nearer than the wave travels in an output frame.
+            // Every third contact sits close to its neighbour, nearer than the wave travels in an output
+            // frame.
             const bool close = i > 0 && count(0, 2) == 0;
             const double x = close ? s.contacts.back().position_m + s.length_m * uniform(0, 2e-3)
                                    : s.length_m * uniform(0.02, 0.95);
             s.contacts.push_back({x, -height * uniform(0, 1), uniform(0, 1), Side::Below});
         }
-        if (count(0, 3) == 0) s.contacts.push_back({s.length_m * uniform(0.1, 0.9), 2 * height, 0.3, Side::Above});
+        if (count(0, 3) == 0)
+            s.contacts.push_back({s.length_m * uniform(0.1, 0.9), 2 * height, 0.3, Side::Above});
         s.probes.push_back({Quantity::Displacement, 0.9 * s.length_m, 0});
         return s;
     }

@@ -18,9 +18,9 @@ struct AlignedAllocator {
     template <class U>
     AlignedAllocator(const AlignedAllocator<U>&) noexcept {}  // NOLINT(google-explicit-constructor)
     T* allocate(std::size_t n) {
-        return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{vector_alignment}));
+        return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{vector_alignment}));
     }
-    void deallocate(T* p, std::size_t) noexcept { ::operator delete(p, std::align_val_t{vector_alignment}); }
+    void deallocate(T* p, std::size_t) noexcept { ::operator delete (p, std::align_val_t{vector_alignment}); }
     template <class U>
     bool operator==(const AlignedAllocator<U>&) const noexcept {
         return true;

@@ -1,4 +1,5 @@
-// What a scene is, in SI units, before compile(): plain structs with the names and units of the scene file format.
+// What a scene is, in SI units, before compile(): plain structs with the names and units of the scene file
+// format.
 #pragma once
 
 #include <array>
@@ -20,7 +21,8 @@ enum class InharmonicityLaw {
 struct NoLoss {};
 
 /// Valette's three losses (Issanchou et al. 2018, eq. 4):
-/// 1/Q_k = R/(2 pi mu) f0_k/f_k^2 + (4 L^2 B mu delta / T) f0_k^3/f_k + 1/Q_0, R = 2 pi eta + 2 pi d sqrt(pi eta rho f_k).
+/// 1/Q_k = R/(2 pi mu) f0_k/f_k^2 + (4 L^2 B mu delta / T) f0_k^3/f_k + 1/Q_0, R = 2 pi eta + 2 pi d sqrt(pi
+/// eta rho f_k).
 struct ValetteLoss {
     double diameter_m = 0;                   ///< d, > 0
     double air_viscosity_Pa_s = 0;           ///< eta, >= 0
@@ -35,7 +37,8 @@ struct DecayTime {
     double t60_s = 0;         ///< > 0
 };
 
-/// sigma_k = s_0 + s_1 (k pi / L)^2 through two points (Bilbao 2009, section 7.3); needs T60 not to rise with frequency.
+/// sigma_k = s_0 + s_1 (k pi / L)^2 through two points (Bilbao 2009, section 7.3); needs T60 not to rise with
+/// frequency.
 struct DecayTimePoints {
     std::array<DecayTime, 2> points;
 };
@@ -70,7 +73,8 @@ struct ContactDescription {
     Side side = Side::Below;
 };
 
-// ---------------------------------------------------------------------------------------------- initial state
+// ---------------------------------------------------------------------------------------------- initial
+// state
 
 /// How the backward velocity v = (q_now - q_before)/h of the first step follows from the true initial state.
 enum class Start {
@@ -112,7 +116,8 @@ struct ProbeDescription {
     std::size_t contact = 0;  ///< for ContactForce: index into the string's contacts
 };
 
-// ---------------------------------------------------------------------------------------------- string and scene
+// ---------------------------------------------------------------------------------------------- string and
+// scene
 
 struct StringDescription {
     std::string name;
@@ -133,7 +138,7 @@ struct SceneDescription {
     double output_rate_hz = 48000;     ///< > 0
     double contact_rate_hz = 2016000;  ///< an integer multiple of output_rate_hz
     Scheme scheme = Scheme::Exact;
-    double theta = 0.5;                ///< 1/2 to 1; used by Scheme::Theta only
+    double theta = 0.5;  ///< 1/2 to 1; used by Scheme::Theta only
     ImpactLaw law = ImpactLaw::Signorini;
     std::vector<StringDescription> strings;
 };

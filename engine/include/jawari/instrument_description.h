@@ -25,7 +25,7 @@ struct InstrumentStringDescription {
 /// Fret j = 1, 2, ... lies at equal temperament; a note at fret f sounds f semitones above the open string.
 struct FretsDescription {
     std::vector<double> height_m;  ///< from the open string's rest line, negative; at most limits::frets
-    double restitution = 0;         ///< 0 to 1; ignored by ImpactLaw::Signorini
+    double restitution = 0;        ///< 0 to 1; ignored by ImpactLaw::Signorini
 };
 
 /// A finger lifts the string with a force at one point and lets go. The force rises and falls as half a

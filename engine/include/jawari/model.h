@@ -10,27 +10,31 @@
 
 namespace jawari {
 
-/// Free flight over one output frame of m steps: (q, v) <- (q, v) + F (q, v) + force response. Arrays over modes.
+/// Free flight over one output frame of m steps: (q, v) <- (q, v) + F (q, v) + force response. Arrays over
+/// modes.
 struct FlightModel {
     AlignedVector<double> qq, qv, vq, vv;  ///< P^m - I, P = [[1-d, h e], [-d/h, e]]; qv in s, vq in 1/s
-    /// Response at the frame's end to a force of 1 N held over it, and to one that grows by 1 N a step, per unit of phi.
+    /// Response at the frame's end to a force of 1 N held over it, and to one that grows by 1 N a step, per
+    /// unit of phi.
     AlignedVector<double> q_held, v_held, q_ramp, v_ramp;
 };
 
 /// Weights of the gap certificate (docs/certificate.md). Arrays over modes unless said otherwise.
 struct CertificateModel {
     AlignedVector<double> stiffness;  ///< kappa = 4d/((1+e+A) h^2): r^2 = v^2 + kappa (q - h v/2)^2 [1/s^2]
-    AlignedVector<double> extent_q;   ///< a^2 = extent_q (q - h v/2)^2 + extent_v v^2 bounds q^2; 2(1+e)/(1+e+A)
-    AlignedVector<double> extent_v;   ///< h^2 (1+e)/(2d) [s^2]
-    AlignedVector<double> kick;       ///< rho w/mu: what an impulse on phi = 1 adds to r at most [1/kg m]
+    AlignedVector<double>
+        extent_q;  ///< a^2 = extent_q (q - h v/2)^2 + extent_v v^2 bounds q^2; 2(1+e)/(1+e+A)
+    AlignedVector<double> extent_v;  ///< h^2 (1+e)/(2d) [s^2]
+    AlignedVector<double> kick;      ///< rho w/mu: what an impulse on phi = 1 adds to r at most [1/kg m]
     std::vector<std::size_t> group_begin;  ///< first contact of each group, and the contact count at the end
-    AlignedVector<double> envelope;   ///< max over a group's contacts of |phi_k|, groups x stride
-    /// What 1 N s at contact c does to group g at most, groups x contact_count: how far a gap falls within a frame [m/(N s)] where
-    /// the model has a response table, else the speed it gets [1/kg].
+    AlignedVector<double> envelope;        ///< max over a group's contacts of |phi_k|, groups x stride
+    /// What 1 N s at contact c does to group g at most, groups x contact_count: how far a gap falls within a
+    /// frame [m/(N s)] where the model has a response table, else the speed it gets [1/kg].
     std::vector<double> push;
 };
 
-/// Arrays over modes have length `stride` (the mode count N padded by modes at rest); rows over contacts are `stride` apart.
+/// Arrays over modes have length `stride` (the mode count N padded by modes at rest); rows over contacts are
+/// `stride` apart.
 struct StringModel {
     std::string name;
     double length_m = 0;
@@ -55,35 +59,41 @@ struct StringModel {
     std::size_t steps_per_frame = 1;  ///< m
     FlightModel flight;
     CertificateModel certificate;
-    /// Gap rate at contact c, n steps after an impulse of 1 N s at contact s: response[(s contact_count + c) response_stride + n]
-    /// [1/kg]; empty where the table would be too large.
+    /// Gap rate at contact c, n steps after an impulse of 1 N s at contact s: response[(s contact_count + c)
+    /// response_stride + n] [1/kg]; empty where the table would be too large.
     AlignedVector<double> response;
     std::size_t response_stride = 0;  ///< padded(steps_per_frame)
 
-    // -- energy (energy.h): H = sum kinetic v^2 + potential (q - h v/2)^2, or + potential q^2 for the theta scheme
+    // -- energy (energy.h): H = sum kinetic v^2 + potential (q - h v/2)^2, or + potential q^2 for the theta
+    // scheme
     AlignedVector<double> kinetic;      ///< mu (1+e+A)/(8 w), or mu/2 for the theta scheme; 0 where w = 0
     AlignedVector<double> potential;    ///< mu omega^2/2
     AlignedVector<double> dissipation;  ///< mu (1-e)/(4 w); for the theta scheme 2 mu sigma h; 0 where w = 0
 
     // -- contacts
-    std::size_t contact_count = 0;             ///< contacts kept, <= those described
-    std::size_t contact_stride = 0;            ///< padded(contact_count)
-    AlignedVector<double> contact_rows;        ///< S: +phi_k(x_c) from below, -phi_k(x_c) from above; contact_count x stride
-    std::vector<double> contact_height;        ///< b_c = +-h_c [m]: gap = S q - b
-    std::vector<double> contact_restitution;   ///< e_c
-    std::vector<double> contact_position;      ///< x_c [m]
+    std::size_t contact_count = 0;   ///< contacts kept, <= those described
+    std::size_t contact_stride = 0;  ///< padded(contact_count)
+    AlignedVector<double>
+        contact_rows;  ///< S: +phi_k(x_c) from below, -phi_k(x_c) from above; contact_count x stride
+    std::vector<double> contact_height;       ///< b_c = +-h_c [m]: gap = S q - b
+    std::vector<double> contact_restitution;  ///< e_c
+    std::vector<double> contact_position;     ///< x_c [m]
     std::vector<Side> contact_side;
-    AlignedVector<double> compliance;          ///< A = h theta D = h theta S diag(w/mu) S^T [m/(N s)]; contact_count x contact_stride
-    std::vector<std::ptrdiff_t> contact_of_description;  ///< model index of each described contact, -1 if dropped
+    AlignedVector<double>
+        compliance;  ///< A = h theta D = h theta S diag(w/mu) S^T [m/(N s)]; contact_count x contact_stride
+    std::vector<std::ptrdiff_t>
+        contact_of_description;  ///< model index of each described contact, -1 if dropped
 
     // -- initial state
     AlignedVector<double> initial_displacement;  ///< q
     AlignedVector<double> initial_velocity;      ///< backward velocity v
-    AlignedVector<double> rest_displacement;     ///< q at rest against the obstacles; where a string with non-finite state restarts
+    AlignedVector<double> rest_displacement;     ///< q at rest against the obstacles; where a string with
+                                                 ///< non-finite state restarts
 
     // -- probes, in the order described
     std::vector<ProbeDescription> probes;
-    AlignedVector<double> probe_rows;  ///< phi_k(x) for displacement and velocity, zero for others; probes x stride
+    AlignedVector<double>
+        probe_rows;  ///< phi_k(x) for displacement and velocity, zero for others; probes x stride
 };
 
 struct SceneModel {
@@ -91,7 +101,7 @@ struct SceneModel {
     double contact_rate_hz = 0;
     std::size_t steps_per_frame = 0;  ///< m = contact_rate / output_rate
     std::vector<StringModel> strings;
-    std::size_t probe_count = 0;      ///< over all strings: outputs of render()
+    std::size_t probe_count = 0;  ///< over all strings: outputs of render()
 };
 
 }  // namespace jawari

@@ -20,8 +20,8 @@ std::vector<ContactDescription> equal_temperament_frets(double length_m, std::sp
 /// One corner of a neck profile: (position [m], height [m]).
 using ProfilePoint = std::pair<double, double>;
 
-/// A neck sampled at the interior points x_j = j L/(n+1), j = 1..n, linear between the profile's points and constant
-/// outside them. Precondition: profile not empty, positions not decreasing.
+/// A neck sampled at the interior points x_j = j L/(n+1), j = 1..n, linear between the profile's points and
+/// constant outside them. Precondition: profile not empty, positions not decreasing.
 std::vector<ContactDescription> sampled_neck(double length_m, std::size_t grid_points,
                                              std::span<const ProfilePoint> profile, double restitution);
 

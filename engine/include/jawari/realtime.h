@@ -1,4 +1,5 @@
-// Marks functions that may run on the audio thread: they never allocate, lock, throw, log or make a system call.
+// Marks functions that may run on the audio thread: they never allocate, lock, throw, log or make a system
+// call.
 #pragma once
 
 // Clang 20 and later check the mark with -Wfunction-effects; other compilers see plain noexcept.

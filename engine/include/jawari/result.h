@@ -9,7 +9,8 @@ namespace jawari {
 
 /// Why a description cannot be compiled.
 struct Failure {
-    std::string place;    ///< Path inside the description, spelled as in scene files: `strings[0].contacts[3].position_m`.
+    std::string place;    ///< Path inside the description, spelled as in scene files:
+                          ///< `strings[0].contacts[3].position_m`.
     std::string value;    ///< The offending value, printed.
     std::string allowed;  ///< What would have been accepted: a range or a sentence.
 

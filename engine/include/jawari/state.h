@@ -14,28 +14,31 @@ namespace jawari {
 
 /// What happened since make_state().
 struct Counters {
-    std::uint64_t steps = 0;             ///< contact steps simulated
-    std::uint64_t candidates = 0;        ///< contacts that entered a complementarity problem
-    std::uint64_t impulses = 0;          ///< impulses > 0
-    std::uint64_t solves = 0;            ///< complementarity problems with a violated candidate
-    std::uint64_t truncated_solves = 0;  ///< solves stopped by the bound on operations, made passive by scaling
-    std::uint64_t flown_frames = 0;      ///< frames crossed by free flight
-    std::uint64_t near_frames = 0;       ///< frames stepped finely for the contacts that might close
-    std::uint64_t asleep_frames = 0;     ///< frames that cost nothing
-    std::uint64_t nonfinite_resets = 0;  ///< times the string was put to rest because its state was not finite
-    double worst_residual_m = 0;         ///< largest LCP residual max_c |min(y - tau, A_cc lambda)| of finished solves
-    double worst_penetration_m = 0;      ///< largest -gap
+    std::uint64_t steps = 0;       ///< contact steps simulated
+    std::uint64_t candidates = 0;  ///< contacts that entered a complementarity problem
+    std::uint64_t impulses = 0;    ///< impulses > 0
+    std::uint64_t solves = 0;      ///< complementarity problems with a violated candidate
+    std::uint64_t truncated_solves =
+        0;                            ///< solves stopped by the bound on operations, made passive by scaling
+    std::uint64_t flown_frames = 0;   ///< frames crossed by free flight
+    std::uint64_t near_frames = 0;    ///< frames stepped finely for the contacts that might close
+    std::uint64_t asleep_frames = 0;  ///< frames that cost nothing
+    std::uint64_t nonfinite_resets =
+        0;  ///< times the string was put to rest because its state was not finite
+    double worst_residual_m =
+        0;  ///< largest LCP residual max_c |min(y - tau, A_cc lambda)| of finished solves
+    double worst_penetration_m = 0;  ///< largest -gap
 };
 
 /// Energies in joules, accumulated while metering is on (Metering::Step).
 struct EnergyMeter {
-    double initial = 0;             ///< H at make_state()
-    double highest = 0;             ///< largest H seen (each step with Metering::Step, else each frame)
-    double dissipated = 0;          ///< by the string's own losses, >= 0
-    double contact_work = 0;        ///< sum lambda (y+ - y_before)/(2h): work of impacts on the string
-    double player_work = 0;         ///< sum lambda (b+ - b_before)/(2h): work of moving obstacles
-    double worst_imbalance = 0;     ///< largest |H+ - H + losses - works| of one step
-    double worst_rise = 0;          ///< largest H+ - H - player's work of one step
+    double initial = 0;          ///< H at make_state()
+    double highest = 0;          ///< largest H seen (each step with Metering::Step, else each frame)
+    double dissipated = 0;       ///< by the string's own losses, >= 0
+    double contact_work = 0;     ///< sum lambda (y+ - y_before)/(2h): work of impacts on the string
+    double player_work = 0;      ///< sum lambda (b+ - b_before)/(2h): work of moving obstacles
+    double worst_imbalance = 0;  ///< largest |H+ - H + losses - works| of one step
+    double worst_rise = 0;       ///< largest H+ - H - player's work of one step
 };
 
 enum class Metering {
@@ -46,84 +49,89 @@ enum class Metering {
 
 /// Contact coordinates; arrays over the model's contacts, padded to contact_stride.
 struct ContactState {
-    AlignedVector<double> gap;            ///< y [m]
-    AlignedVector<double> gap_before;     ///< y one step earlier
-    AlignedVector<double> height;         ///< b [m], starts from the model's contact_height
-    AlignedVector<double> height_before;  ///< b one step earlier
+    AlignedVector<double> gap;                 ///< y [m]
+    AlignedVector<double> gap_before;          ///< y one step earlier
+    AlignedVector<double> height;              ///< b [m], starts from the model's contact_height
+    AlignedVector<double> height_before;       ///< b one step earlier
     AlignedVector<double> height_rise_before;  ///< change of b in the step before [m]
-    AlignedVector<double> height_rate;    ///< change of b per step while moving [m]
-    std::vector<std::uint64_t> moving_steps;  ///< steps left of a movement
-    AlignedVector<double> height_target;  ///< b at the end of the movement
-    AlignedVector<double> impulse;        ///< lambda of the last step [N s]; also the warm start
-    AlignedVector<double> frame_impulse;  ///< sum of lambda over the frame [N s]
-    AlignedVector<double> gap_free;       ///< scratch: y_free
-    AlignedVector<double> gap_rate;       ///< scratch: S v of the step's start (theta scheme)
-    AlignedVector<double> offset;         ///< scratch: r = y_free - tau
-    AlignedVector<double> residual;       ///< scratch: r + A lambda
-    std::vector<std::uint32_t> near;      ///< contacts evaluated at each step; `near_count` are valid, gaps of others are stale
-    std::vector<std::uint8_t> is_near;    ///< the same as flags
+    AlignedVector<double> height_rate;         ///< change of b per step while moving [m]
+    std::vector<std::uint64_t> moving_steps;   ///< steps left of a movement
+    AlignedVector<double> height_target;       ///< b at the end of the movement
+    AlignedVector<double> impulse;             ///< lambda of the last step [N s]; also the warm start
+    AlignedVector<double> frame_impulse;       ///< sum of lambda over the frame [N s]
+    AlignedVector<double> gap_free;            ///< scratch: y_free
+    AlignedVector<double> gap_rate;            ///< scratch: S v of the step's start (theta scheme)
+    AlignedVector<double> offset;              ///< scratch: r = y_free - tau
+    AlignedVector<double> residual;            ///< scratch: r + A lambda
+    std::vector<std::uint32_t>
+        near;  ///< contacts evaluated at each step; `near_count` are valid, gaps of others are stale
+    std::vector<std::uint8_t> is_near;  ///< the same as flags
     std::size_t near_count = 0;
-    std::vector<std::uint32_t> candidates;    ///< scratch: indices; `candidate_count` are valid
+    std::vector<std::uint32_t> candidates;  ///< scratch: indices; `candidate_count` are valid
     std::size_t candidate_count = 0;
     std::size_t moving_count = 0;
 };
 
 /// Bounds that hold until an impulse, a force or an outside change of state (docs/certificate.md).
 struct CertificateState {
-    AlignedVector<double> speed;   ///< scratch over modes: r_k, bound of |v_k|
-    AlignedVector<double> detour;  ///< scratch over modes: how far q_k may leave the straight line between frame boundaries
+    AlignedVector<double> speed;  ///< scratch over modes: r_k, bound of |v_k|
+    AlignedVector<double>
+        detour;  ///< scratch over modes: how far q_k may leave the straight line between frame boundaries
     AlignedVector<double> extent;  ///< scratch over modes: bound of |q_k|
     // per group of contacts
-    std::vector<double> group_speed;      ///< R: bound of the gaps' rate [m/s]
-    std::vector<double> group_detour;     ///< D: how far a gap dips below both its values at a frame's ends [m]
-    std::vector<double> group_clearance;  ///< lower bound of the gaps for as long as the string flies freely [m]
-    std::vector<double> group_odometer;   ///< integral of R since the last refresh [m]
-    std::vector<double> group_push;       ///< what the frame's impulses so far may have moved the gaps until its end [m]
-    std::vector<double> group_margin;     ///< smallest margin of the group's contacts this frame [m]
-    std::vector<double> group_force_kick; ///< speed that 1 N s of the excitation gives at most [1/kg]
+    std::vector<double> group_speed;   ///< R: bound of the gaps' rate [m/s]
+    std::vector<double> group_detour;  ///< D: how far a gap dips below both its values at a frame's ends [m]
+    std::vector<double>
+        group_clearance;  ///< lower bound of the gaps for as long as the string flies freely [m]
+    std::vector<double> group_odometer;  ///< integral of R since the last refresh [m]
+    std::vector<double>
+        group_push;  ///< what the frame's impulses so far may have moved the gaps until its end [m]
+    std::vector<double> group_margin;      ///< smallest margin of the group's contacts this frame [m]
+    std::vector<double> group_force_kick;  ///< speed that 1 N s of the excitation gives at most [1/kg]
     // per contact
-    std::vector<double> open_until;       ///< odometer reading up to which the gap is certainly open [m]
-    std::vector<double> margin;           ///< this frame's lower bound of the gap without impulses [m]
-    std::vector<double> frame_gap;        ///< S q - b at the coming frame's start, where frame_gap_at says so
-    std::vector<double> frame_end_gap;    ///< scratch: the same at the frame's end in free flight
+    std::vector<double> open_until;     ///< odometer reading up to which the gap is certainly open [m]
+    std::vector<double> margin;         ///< this frame's lower bound of the gap without impulses [m]
+    std::vector<double> frame_gap;      ///< S q - b at the coming frame's start, where frame_gap_at says so
+    std::vector<double> frame_end_gap;  ///< scratch: the same at the frame's end in free flight
     std::vector<std::uint64_t> frame_gap_at;  ///< frame at whose start frame_gap holds
-    std::vector<std::uint32_t> expired;   ///< scratch: contacts whose certificate has run out
-    std::uint64_t age = 0;                ///< frames since the last refresh
-    bool outdated = true;                 ///< an impulse or force has raised the bounds
-    double strongest_speed = 0;           ///< largest r_k ever [m^(3/2)/s]
-    double strongest_extent = 0;          ///< largest |q_k| bound ever
+    std::vector<std::uint32_t> expired;       ///< scratch: contacts whose certificate has run out
+    std::uint64_t age = 0;                    ///< frames since the last refresh
+    bool outdated = true;                     ///< an impulse or force has raised the bounds
+    double strongest_speed = 0;               ///< largest r_k ever [m^(3/2)/s]
+    double strongest_extent = 0;              ///< largest |q_k| bound ever
 };
 
 /// Scratch of a frame solved in contact space; contacts x steps, rows response_stride apart.
 struct NearState {
-    AlignedVector<double> rates_free;  ///< S v of free flight at each step, in the order of ContactState::near
-    AlignedVector<double> rates;       ///< the same with the impulses so far
-    AlignedVector<double> impulses;    ///< lambda at each step
+    AlignedVector<double>
+        rates_free;                  ///< S v of free flight at each step, in the order of ContactState::near
+    AlignedVector<double> rates;     ///< the same with the impulses so far
+    AlignedVector<double> impulses;  ///< lambda at each step
     AlignedVector<double> force_impulses;  ///< h F at each step
     AlignedVector<double> force_row;       ///< (w/mu) phi(x) of the excitation
     std::size_t first_impulse = 0;         ///< step of the frame's first impulse
     AlignedVector<double> lanes;
-    AlignedVector<double> displacement, velocity;  ///< over modes
+    AlignedVector<double> displacement, velocity;    ///< over modes
     AlignedVector<double> gap, gap_before, impulse;  ///< at the frame's start
     std::vector<const double*> rows;
     Counters counters;
 };
 
 struct StringState {
-    AlignedVector<double> displacement;  ///< q
-    AlignedVector<double> velocity;      ///< backward velocity v
+    AlignedVector<double> displacement;                          ///< q
+    AlignedVector<double> velocity;                              ///< backward velocity v
     AlignedVector<double> displacement_before, velocity_before;  ///< scratch: one step earlier
     AlignedVector<double> displacement_flown, velocity_flown;    ///< scratch: the frame's end in free flight
-    std::size_t active_modes = 0;        ///< modes in the sums (padded); those behind are at rest
-    std::uint64_t frame = 0;             ///< frames since make_state()
-    std::size_t steps_left = 0;          ///< of the current frame, including the current step
+    std::size_t active_modes = 0;  ///< modes in the sums (padded); those behind are at rest
+    std::uint64_t frame = 0;       ///< frames since make_state()
+    std::size_t steps_left = 0;    ///< of the current frame, including the current step
     bool asleep = false;
     CertificateState certificate;
     NearState near_frame;
     Skipping skipping;
-    AlignedVector<double> force_row;     ///< phi_k(x) of the excitation [m^(-1/2)]
-    double force = 0;                    ///< excitation at the step [N]
-    double force_rate = 0;               ///< its change per step [N]
+    AlignedVector<double> force_row;  ///< phi_k(x) of the excitation [m^(-1/2)]
+    double force = 0;                 ///< excitation at the step [N]
+    double force_rate = 0;            ///< its change per step [N]
     ContactState contact;
     LcpWorkspace lcp;
     EnergyMeter energy;
@@ -137,7 +145,8 @@ struct SceneState {
 };
 
 /// A state at t = 0 for the model. Allocates all that rendering needs.
-SceneState make_state(const SceneModel& model, Metering metering = Metering::Off, Skipping skipping = skip_all);
+SceneState make_state(const SceneModel& model, Metering metering = Metering::Off,
+                      Skipping skipping = skip_all);
 
 /// One string of it.
 StringState make_string_state(const StringModel& model, Metering metering = Metering::Off,
@@ -146,11 +155,12 @@ StringState make_string_state(const StringModel& model, Metering metering = Mete
 /// Back to t = 0, counters and meters cleared; does not allocate.
 void reset(const StringModel& model, StringState& state) noexcept;
 
-/// To be called when displacement, velocity, the model or the force row were changed from outside between frames: the gaps are
-/// computed anew, every bound is forgotten, a sleeping string wakes.
+/// To be called when displacement, velocity, the model or the force row were changed from outside between
+/// frames: the gaps are computed anew, every bound is forgotten, a sleeping string wakes.
 void notice_change(const StringModel& model, StringState& state) noexcept;
 
-/// At rest against the obstacles at their initial heights, without excitation; counters and meters stay. Does not allocate.
+/// At rest against the obstacles at their initial heights, without excitation; counters and meters stay. Does
+/// not allocate.
 void put_to_rest(const StringModel& model, StringState& state) noexcept;
 
 }  // namespace jawari
