@@ -57,6 +57,7 @@ MaybeError OutputFile::create_temporary() {
     final_path_ = follow_links(path_);
     struct stat status {};
     const bool exists = stat(final_path_.c_str(), &status) == 0;
+    if (!exists && errno != ENOENT) return file_error(path_, errno);
     if (exists && access(final_path_.c_str(), W_OK) != 0) return file_error(path_, errno);
 
     const auto directory = std::filesystem::path(final_path_).parent_path();

@@ -24,6 +24,16 @@ std::string line_and_column(std::string_view text, std::size_t offset) {
     return std::to_string(line) + ":" + std::to_string(std::max<std::size_t>(column, 1));
 }
 
+/// The letters around the byte that the parser stopped at, which it counts from 1.
+std::string_view word_around(std::string_view text, std::size_t offset) {
+    const auto is_letter = [&](std::size_t i) { return (text[i] | 0x20) >= 'a' && (text[i] | 0x20) <= 'z'; };
+    std::size_t first = std::min(offset, text.size());
+    std::size_t last = first;
+    while (last < text.size() && is_letter(last)) ++last;
+    while (first > 0 && is_letter(first - 1)) --first;
+    return text.substr(first, last - first);
+}
+
 /// Receives the parser's events and builds the document, so that bounds hold before memory is taken.
 class Builder final : public nlohmann::json_sax<nlohmann::json> {
   public:
@@ -137,9 +147,8 @@ bool Builder::parse_error(std::size_t offset, const std::string& last_token,
         reason = "the number " + last_token.substr(0, 60) + " is too large (allowed: finite numbers)";
     constexpr std::size_t longest = 240;
     if (reason.size() > longest) reason = reason.substr(0, longest) + "...";
-    const auto token = text_.substr(std::min(text_.size(), offset > 0 ? offset - 1 : 0), 1);
-    if (token.find_first_of("NnIi") != std::string_view::npos ||
-        last_token.find_first_of("NI") != std::string::npos)
+    const std::string word = lower_case(word_around(text_, offset));
+    if (word.starts_with("nan") || word.starts_with("inf"))
         reason += " (NaN and Infinity are not JSON; allowed: finite numbers)";
     error = Error{ExitCode::InvalidInput, file_ + ":" + line_and_column(text_, offset) + ": " + reason};
     return false;
