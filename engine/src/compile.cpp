@@ -8,6 +8,7 @@
 #include "jawari/modes.h"
 #include "jawari/step_coefficients.h"
 #include "kernels.h"
+#include "response.h"
 #include "static_equilibrium.h"
 #include "validate.h"
 
@@ -115,20 +116,6 @@ std::optional<Failure> set_contacts(StringModel& model, const StringDescription&
         }
     }
     return {};
-}
-
-/// A = h theta S diag(w/mu) S^T
-void set_compliance(StringModel& model) {
-    model.contact_stride = padded(model.contact_count);
-    model.compliance.assign(model.contact_count * model.contact_stride, 0.0);
-    AlignedVector<double> response(model.stride);
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
-        std::fill(response.begin(), response.end(), 0.0);
-        kernels::add_impulse(model.stride, model.step_s * model.theta, model.mobility.data(),
-                             model.contact_rows.data() + c * model.stride, response.data());
-        kernels::row_products(model.contact_count, model.stride, model.stride, model.contact_rows.data(),
-                              response.data(), model.compliance.data() + c * model.contact_stride);
-    }
 }
 
 struct TrueState {

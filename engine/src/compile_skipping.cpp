@@ -5,7 +5,7 @@
 
 #include "jawari/step_coefficients.h"
 #include "kernels.h"
-#include "near_frame.h"
+#include "response.h"
 
 namespace jawari {
 namespace {

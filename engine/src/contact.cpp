@@ -5,6 +5,7 @@
 #include "impact_law.h"
 #include "jawari/lcp.h"
 #include "kernels.h"
+#include "response.h"
 
 namespace jawari {
 namespace {
@@ -22,11 +23,11 @@ ContactMoment moment_of(const StringModel& model, const ContactState& contact, s
 
 /// y_free + A lambda - y_free at one contact.
 double gap_response(const StringModel& model, const ContactState& contact, std::size_t c) {
-    const double* row = model.compliance.data() + c * model.contact_stride;
+    const ContactOperator A = compliance_of(model);
     double response = 0;
     for (std::size_t i = 0; i < contact.candidate_count; ++i) {
         const auto other = contact.candidates[i];
-        if (contact.impulse[other] > 0) response += row[other] * contact.impulse[other];
+        if (contact.impulse[other] > 0) response += A(c, other) * contact.impulse[other];
     }
     return response;
 }
@@ -147,8 +148,8 @@ void solve_impulses(const StringModel& model, StringState& state) JAWARI_REALTIM
     ContactState& contact = state.contact;
     Counters& counters = state.counters;
     const std::span<const std::uint32_t> candidates{contact.candidates.data(), contact.candidate_count};
-    const LcpOutcome outcome = solve_lcp(model.compliance, model.contact_stride, contact.offset, candidates,
-                                         contact.impulse, contact.residual, state.lcp);
+    const LcpOutcome outcome = solve_lcp(compliance_of(model), contact.offset, candidates, contact.impulse,
+                                         contact.residual, state.lcp);
     counters.solves += 1;
     if (outcome.finished) {
         counters.worst_residual_m = std::max(counters.worst_residual_m, outcome.residual);
@@ -175,15 +176,15 @@ void accept_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
         contact.gap_before[c] = contact.gap[c];
         contact.gap[c] = contact.gap_free[c];
     }
+    const ContactOperator A = compliance_of(model);
     for (std::size_t i = 0; i < contact.candidate_count; ++i) {
         const auto active = contact.candidates[i];
         const double impulse = contact.impulse[active];
         if (impulse <= 0) continue;
         contact.frame_impulse[active] += impulse;
         state.counters.impulses += 1;
-        const double* response = model.compliance.data() + active * model.contact_stride;
         for (std::size_t j = 0; j < contact.near_count; ++j) {
-            contact.gap[contact.near[j]] += response[contact.near[j]] * impulse;
+            contact.gap[contact.near[j]] += A(active, contact.near[j]) * impulse;
         }
     }
     state.counters.candidates += contact.candidate_count;

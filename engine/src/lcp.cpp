@@ -19,8 +19,7 @@ using Vector = Eigen::Map<Eigen::VectorXd>;
 
 /// The problem and its workspace, so that the stages below read as sentences.
 struct Problem {
-    std::span<const double> A;
-    std::size_t stride;
+    const ContactOperator& A;
     std::span<const double> r;
     std::span<const std::uint32_t> candidates;
     std::span<double> lambda;
@@ -28,7 +27,7 @@ struct Problem {
     LcpWorkspace& work;
     double tolerance = 0;  ///< violations below it are rounding
 
-    [[nodiscard]] double a(std::size_t i, std::size_t j) const { return A[i * stride + j]; }
+    [[nodiscard]] double a(std::size_t i, std::size_t j) const { return A(i, j); }
     [[nodiscard]] Factor factor() const {
         const auto n = static_cast<Eigen::Index>(work.active_count);
         return {work.factor.data(), n, n, Eigen::OuterStride<>(static_cast<Eigen::Index>(work.capacity))};
@@ -133,12 +132,13 @@ void adopt_guess(const Problem& p) {
 }
 
 void update_residual(const Problem& p) {
-    for (const auto c : p.candidates) p.residual[c] = p.r[c];
-    for (std::size_t i = 0; i < p.work.active_count; ++i) {
-        const auto f = p.work.active[i];
-        const double* row = p.A.data() + f * p.stride;
-        const double impulse = p.lambda[f];
-        for (const auto c : p.candidates) p.residual[c] += row[c] * impulse;
+    for (const auto c : p.candidates) {
+        double sum = p.r[c];
+        for (std::size_t i = 0; i < p.work.active_count; ++i) {
+            const auto f = p.work.active[i];
+            sum += p.a(f, c) * p.lambda[f];
+        }
+        p.residual[c] = sum;
     }
 }
 
@@ -220,10 +220,10 @@ LcpWorkspace make_lcp_workspace(std::size_t contacts, std::size_t largest_active
     return work;
 }
 
-LcpOutcome solve_lcp(std::span<const double> A, std::size_t stride, std::span<const double> r,
+LcpOutcome solve_lcp(const ContactOperator& A, std::span<const double> r,
                      std::span<const std::uint32_t> candidates, std::span<double> lambda,
                      std::span<double> residual, LcpWorkspace& workspace) JAWARI_REALTIME {
-    Problem p{A, stride, r, candidates, lambda, residual, workspace};
+    Problem p{A, r, candidates, lambda, residual, workspace};
     double lowest = 0;
     for (const auto c : candidates) lowest = std::min(lowest, r[c]);
     p.tolerance = -1e-13 * lowest;

@@ -1,13 +1,12 @@
 #include "near_frame.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "certificate.h"
 #include "contact.h"
-#include "impact_law.h"
 #include "kernels.h"
 #include "near_kernels.h"
+#include "response.h"
 
 namespace jawari {
 namespace {
@@ -21,24 +20,6 @@ kernels::ModeRun run_of(const StringModel& model) {
     run.change = model.change.data();
     run.restoring = model.restoring.data();
     return run;
-}
-
-const double* response(const StringModel& model, std::size_t struck, std::size_t contact) {
-    return model.response.data() + (struck * model.contact_count + contact) * model.response_stride;
-}
-
-/// How far a unit impulse at one contact can lower the gap of another within a frame; with the laws'
-/// lookahead.
-double largest_push(const StringModel& model, std::size_t struck, std::size_t contact) {
-    const double* rate = response(model, struck, contact);
-    const double ahead = looks_ahead(model.law) ? 0.5 : 0.0;
-    double rise = 0;
-    double lowest = 0;
-    for (std::size_t n = 0; n < model.steps_per_frame; ++n) {
-        rise += model.step_s * rate[n];
-        lowest = std::min({lowest, rise, rise + ahead * model.step_s * rate[n]});
-    }
-    return -lowest;
 }
 
 /// rates_free <- S v of free flight at each step, for the near contacts from `first` on.
@@ -93,6 +74,19 @@ void restore_start(StringState& state) {
     std::fill(state.contact.frame_impulse.begin(), state.contact.frame_impulse.end(), 0.0);
 }
 
+/// The row of NearState::impulses that collects the impulses of a contact.
+double* impulses_of(const StringModel& model, NearState& near, std::uint32_t contact) {
+    const auto end = near.struck.begin() + static_cast<std::ptrdiff_t>(near.struck_count);
+    const auto found = std::find(near.struck.begin(), end, contact);
+    const auto slot = static_cast<std::size_t>(found - near.struck.begin());
+    double* impulses = near.impulses.data() + slot * model.response_stride;
+    if (found == end) {
+        near.struck[near.struck_count++] = contact;
+        std::fill_n(impulses, model.response_stride, 0.0);
+    }
+    return impulses;
+}
+
 /// Adds what the step's impulses do to the rates of all later steps, and keeps them for the modes.
 void spread_impulses(const StringModel& model, StringState& state, std::size_t n) {
     NearState& near = state.near_frame;
@@ -101,12 +95,13 @@ void spread_impulses(const StringModel& model, StringState& state, std::size_t n
         const auto struck = contact.candidates[i];
         const double impulse = contact.impulse[struck];
         if (impulse <= 0) continue;
-        near.impulses[struck * model.response_stride + n] = impulse;
+        impulses_of(model, near, struck)[n] = impulse;
         for (std::size_t j = 0; j < contact.near_count; ++j) {
-            const double* rate = response(model, struck, contact.near[j]);
+            const Response response = response_of(model, struck, contact.near[j]);
             double* rates = near.rates.data() + j * model.response_stride + n;
-            for (std::size_t later = 1; later < model.steps_per_frame - n; ++later)
-                rates[later] += impulse * rate[later];
+            for (std::size_t later = 1; later < model.steps_per_frame - n; ++later) {
+                rates[later] += impulse * (response.direct[later] - response.mirrored[later]);
+            }
         }
     }
 }
@@ -116,7 +111,7 @@ void solve_in_contact_space(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
     ContactState& contact = state.contact;
     std::copy_n(near.rates_free.begin(), contact.near_count * model.response_stride, near.rates.begin());
-    std::fill(near.impulses.begin(), near.impulses.end(), 0.0);
+    near.struck_count = 0;
     near.first_impulse = model.steps_per_frame;
     for (std::size_t n = 0; n < model.steps_per_frame; ++n) {
         for (std::size_t i = 0; i < contact.near_count; ++i) {
@@ -138,33 +133,24 @@ void solve_in_contact_space(const StringModel& model, StringState& state) {
 bool admit_pushed(const StringModel& model, StringState& state) {
     ContactState& contact = state.contact;
     CertificateState& bounds = state.certificate;
+    const NearState& near = state.near_frame;
+    const std::vector<std::size_t>& begin = model.certificate.group_begin;
     const std::size_t before = contact.near_count;
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
+    for (std::size_t g = 0; g + 1 < begin.size(); ++g) {
         double push = 0;
-        for (std::size_t i = 0; i < before; ++i) {
-            const auto struck = contact.near[i];
-            push += model.certificate.push[c * model.contact_count + struck] * contact.frame_impulse[struck];
+        for (std::size_t i = 0; i < near.struck_count; ++i) {
+            const auto struck = near.struck[i];
+            push += model.certificate.push[g * model.contact_count + struck] * contact.frame_impulse[struck];
         }
-        bounds.group_push[c] = push;
-        if (contact.is_near[c] != 0 || bounds.margin[c] > push) continue;
-        contact.near[contact.near_count++] = static_cast<std::uint32_t>(c);
-        contact.is_near[c] = 1;
+        bounds.group_push[g] = push;
+        if (bounds.group_margin[g] > push) continue;
+        for (std::size_t c = begin[g]; c < begin[g + 1]; ++c) {
+            if (contact.is_near[c] != 0 || bounds.margin[c] > push) continue;
+            contact.near[contact.near_count++] = static_cast<std::uint32_t>(c);
+            contact.is_near[c] = 1;
+        }
     }
     return contact.near_count > before;
-}
-
-/// The rows of the contacts struck, their impulses moved together; returns how many.
-std::size_t gather_struck(const StringModel& model, StringState& state) {
-    NearState& near = state.near_frame;
-    std::size_t struck = 0;
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
-        if (state.contact.frame_impulse[c] <= 0) continue;
-        near.rows[struck] = model.contact_rows.data() + c * model.stride;
-        std::copy_n(near.impulses.data() + c * model.response_stride, model.response_stride,
-                    near.impulses.data() + struck * model.response_stride);
-        struck += 1;
-    }
-    return struck;
 }
 
 /// The frame's end receives the response of the modes to the impulses, run for unit mobility and scaled at
@@ -175,7 +161,10 @@ void run_impulses(const StringModel& model, StringState& state) {
     std::fill(near.displacement.begin(), near.displacement.end(), 0.0);
     std::fill(near.velocity.begin(), near.velocity.end(), 0.0);
     kernels::ModeRun run = run_of(model);
-    run.drivers = gather_struck(model, state);
+    for (std::size_t i = 0; i < near.struck_count; ++i) {
+        near.rows[i] = model.contact_rows.data() + near.struck[i] * model.stride;
+    }
+    run.drivers = near.struck_count;
     run.driver_rows = near.rows.data();
     run.impulses = near.impulses.data() + near.first_impulse;
     run.impulse_stride = model.response_stride;
@@ -190,47 +179,6 @@ void run_impulses(const StringModel& model, StringState& state) {
 }
 
 }  // namespace
-
-void set_responses(StringModel& model) {
-    const std::size_t count = model.contact_count;
-    model.response_stride = padded(model.steps_per_frame);
-    if (count == 0 || model.certificate.group_begin.size() != count + 1 ||
-        count * count * model.response_stride > largest_response_table) {
-        return;
-    }
-    model.response.assign(count * count * model.response_stride, 0.0);
-    AlignedVector<double> q(model.stride), v(model.stride), driver(model.stride);
-    std::vector<const double*> rows(count);
-    for (std::size_t c = 0; c < count; ++c) rows[c] = model.contact_rows.data() + c * model.stride;
-    AlignedVector<double> impulse(model.response_stride, 0.0);
-    impulse[0] = 1;
-    AlignedVector<double> lanes(count * kernels::steps_per_run * lane_padding);
-    for (std::size_t struck = 0; struck < count; ++struck) {
-        std::fill(q.begin(), q.end(), 0.0);
-        std::fill(v.begin(), v.end(), 0.0);
-        std::fill(driver.begin(), driver.end(), 0.0);
-        kernels::add_impulse(model.stride, 1.0, model.mobility.data(), rows[struck], driver.data());
-        const double* driver_row = driver.data();
-        kernels::ModeRun run = run_of(model);
-        run.drivers = 1;
-        run.driver_rows = &driver_row;
-        run.impulses = impulse.data();
-        run.impulse_stride = model.response_stride;
-        run.probes = count;
-        run.probe_rows = rows.data();
-        run.rates = model.response.data() + struck * count * model.response_stride;
-        run.rate_stride = model.response_stride;
-        run.lanes = lanes.data();
-        run.q = q.data();
-        run.v = v.data();
-        kernels::run_modes(run);
-    }
-    for (std::size_t c = 0; c < count; ++c) {
-        for (std::size_t struck = 0; struck < count; ++struck) {
-            model.certificate.push[c * count + struck] = largest_push(model, struck, c);
-        }
-    }
-}
 
 bool solve_near_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
@@ -247,9 +195,7 @@ bool solve_near_frame(const StringModel& model, StringState& state) JAWARI_REALT
     } while (true);
     state.counters.steps += model.steps_per_frame;
     state.force += state.force_rate * static_cast<double>(model.steps_per_frame);
-    const bool struck = std::any_of(contact.frame_impulse.begin(), contact.frame_impulse.end(),
-                                    [](double impulse) { return impulse > 0; });
-    if (!struck) return false;
+    if (state.near_frame.struck_count == 0) return false;
     state.certificate.outdated = true;
     run_impulses(model, state);
     return true;

@@ -8,13 +8,6 @@
 
 namespace jawari {
 
-/// Contacts up to this many responses (doubles) are solved in contact space; beyond, frames are stepped with
-/// the near contacts.
-inline constexpr std::size_t largest_response_table = std::size_t{1} << 21;
-
-/// Fills model.response and the pushes that follow from it, if the table is not too large.
-void set_responses(StringModel& model);
-
 /// The frame with the contacts in state.contact.near, from the state at its start. displacement_flown,
 /// velocity_flown hold its end in free flight and receive its end with impulses. Returns true if impulses
 /// happened.

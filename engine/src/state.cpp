@@ -68,6 +68,7 @@ NearState make_near_state(const StringModel& model) {
     near.velocity.assign(model.stride, 0.0);
     for (auto* array : {&near.gap, &near.gap_before, &near.impulse}) array->assign(model.contact_stride, 0.0);
     near.rows.assign(count, nullptr);
+    near.struck.assign(count, 0);
     return near;
 }
 

@@ -38,8 +38,8 @@ std::optional<AlignedVector<double>> held_displacement(const StringModel& model,
     AlignedVector<double> force(model.contact_stride, 0.0);
     AlignedVector<double> residual(model.contact_stride, 0.0);
     LcpWorkspace workspace = make_lcp_workspace(count, count);
-    const LcpOutcome outcome =
-        solve_lcp(static_compliance, model.contact_stride, gap, candidates, force, residual, workspace);
+    const LcpOutcome outcome = solve_lcp({static_compliance.data(), model.contact_stride}, gap, candidates,
+                                         force, residual, workspace);
     if (!outcome.finished) return {};
     for (std::size_t c = 0; c < count; ++c) {
         if (force[c] > 0) {

@@ -49,7 +49,7 @@ Solution solve(const Problem& problem, std::vector<double> guess, std::size_t ca
     Solution solution{{}, std::move(guess), std::vector<double>(n, 0.0)};
     solution.lambda.resize(n, 0.0);
     LcpWorkspace workspace = make_lcp_workspace(n, capacity);
-    solution.outcome = solve_lcp(A, stride, r, candidates, solution.lambda, solution.residual, workspace);
+    solution.outcome = solve_lcp({A.data(), stride}, r, candidates, solution.lambda, solution.residual, workspace);
     return solution;
 }
 
@@ -277,7 +277,7 @@ TEST(Lcp, TouchesOnlyCandidates) {
         }
     }
     LcpWorkspace workspace = make_lcp_workspace(9);
-    ASSERT_TRUE(solve_lcp(A, 9, r, candidates, lambda, residual, workspace).finished);
+    ASSERT_TRUE(solve_lcp({A.data(), 9}, r, candidates, lambda, residual, workspace).finished);
     const Solution expected = solve(part);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(lambda[candidates[i]], expected.lambda[i], 1e-12);
     for (const std::size_t other : {0U, 2U, 3U, 5U, 7U, 8U}) {

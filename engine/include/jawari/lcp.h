@@ -16,6 +16,30 @@
 
 namespace jawari {
 
+/// Table rows of two nodes of a grid: |i - j| and i + j.
+struct GridDistances {
+    std::size_t apart;
+    std::size_t together;
+};
+
+constexpr GridDistances grid_distances(std::uint32_t i, std::uint32_t j) {
+    return {i > j ? i - j : j - i, i + j};
+}
+
+/// A symmetric operator over contacts: a dense matrix, or, for contacts on a uniform grid, a table by
+/// distance: A_ij = values[|n_i - n_j|] - values[n_i + n_j].
+struct ContactOperator {
+    const double* values = nullptr;
+    std::size_t stride = 0;               ///< between the rows of a dense matrix
+    const std::uint32_t* node = nullptr;  ///< grid node of each contact, or null for a dense matrix
+
+    double operator()(std::size_t i, std::size_t j) const {
+        if (node == nullptr) return values[i * stride + j];
+        const GridDistances d = grid_distances(node[i], node[j]);
+        return values[d.apart] - values[d.together];
+    }
+};
+
 /// Storage for active sets of up to `capacity` contacts.
 struct LcpWorkspace {
     std::size_t capacity = 0;
@@ -38,10 +62,10 @@ struct LcpOutcome {
     double residual = 0;  ///< max over candidates of |min(r + A lambda, A_cc lambda)| [unit of r]
 };
 
-/// A is row-major with rows `stride` apart. `candidates` are the indices that take part; lambda is zero
+/// `candidates` are the indices that take part; lambda is zero
 /// elsewhere on return. On entry lambda holds a guess >= 0 (the last step's impulses), on return the
 /// solution, >= 0. `residual` receives r + A lambda at the candidates.
-LcpOutcome solve_lcp(std::span<const double> A, std::size_t stride, std::span<const double> r,
+LcpOutcome solve_lcp(const ContactOperator& A, std::span<const double> r,
                      std::span<const std::uint32_t> candidates, std::span<double> lambda,
                      std::span<double> residual, LcpWorkspace& workspace) JAWARI_REALTIME;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -59,8 +60,8 @@ struct StringModel {
     std::size_t steps_per_frame = 1;  ///< m
     FlightModel flight;
     CertificateModel certificate;
-    /// Gap rate at contact c, n steps after an impulse of 1 N s at contact s: response[(s contact_count + c)
-    /// response_stride + n] [1/kg]; empty where the table would be too large.
+    /// Gap rates within a frame after an impulse of 1 N s [1/kg], rows of response_stride: one per pair of
+    /// contacts, or one per grid distance (response.h); empty where the table would be too large.
     AlignedVector<double> response;
     std::size_t response_stride = 0;  ///< padded(steps_per_frame)
 
@@ -79,8 +80,11 @@ struct StringModel {
     std::vector<double> contact_restitution;  ///< e_c
     std::vector<double> contact_position;     ///< x_c [m]
     std::vector<Side> contact_side;
-    AlignedVector<double>
-        compliance;  ///< A = h theta D = h theta S diag(w/mu) S^T [m/(N s)]; contact_count x contact_stride
+    /// A = h theta D = h theta S diag(w/mu) S^T [m/(N s)]: contact_count x contact_stride, or by grid
+    /// distance.
+    AlignedVector<double> compliance;
+    std::size_t grid_intervals = 0;        ///< M if all contacts lie at x = j L/M below the string, else 0
+    std::vector<std::uint32_t> grid_node;  ///< j of each contact, empty without a grid
     std::vector<std::ptrdiff_t>
         contact_of_description;  ///< model index of each described contact, -1 if dropped
 

@@ -106,7 +106,9 @@ struct NearState {
     AlignedVector<double>
         rates_free;                  ///< S v of free flight at each step, in the order of ContactState::near
     AlignedVector<double> rates;     ///< the same with the impulses so far
-    AlignedVector<double> impulses;  ///< lambda at each step
+    AlignedVector<double> impulses;  ///< lambda at each step, in the order of `struck`
+    std::vector<std::uint32_t> struck;  ///< contacts with impulses in the frame; `struck_count` are valid
+    std::size_t struck_count = 0;
     AlignedVector<double> force_impulses;  ///< h F at each step
     AlignedVector<double> force_row;       ///< (w/mu) phi(x) of the excitation
     std::size_t first_impulse = 0;         ///< step of the frame's first impulse
