@@ -12,6 +12,7 @@
 #include "common/progress.h"
 #include "common/text.h"
 #include "jawari/compile.h"
+#include "plot/scene_plot.h"
 #include "scene/read_scene.h"
 #include "simulate/overrides.h"
 #include "simulate/probe_names.h"
@@ -19,9 +20,6 @@
 #include "simulate/recorder.h"
 #include "simulate/row_renderer.h"
 #include "simulate/stats.h"
-#if __has_include("plot/scene_plot.h")
-#include "plot/scene_plot.h"
-#endif
 
 namespace jawari::host {
 
@@ -130,10 +128,8 @@ MaybeError finish(Run& run, Targets& targets, const SceneState& state, Simulatio
     if (run.output)
         if (auto* hdf5 = std::get_if<Hdf5Output>(&*run.output))
             if (auto error = hdf5->write_final(run.model, state, stats)) return error;
-#if __has_include("plot/scene_plot.h")
     if (run.recorder)
         if (auto error = plot_scene(run.recorder->recording(), run.options.plot)) return error;
-#endif
     if (run.output)
         if (auto error = std::visit([](auto& output) { return output.commit(); }, *run.output)) return error;
     stats.cpu_output_s = run.cpu_output_s + (thread_cpu_s() - started);

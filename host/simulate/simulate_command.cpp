@@ -96,9 +96,9 @@ void add_simulate_command(CLI::App& app, Command& command) {
     CLI::App* simulate_app =
         app.add_subcommand("simulate", "Simulates a scene: strings, obstacles and probes from a JSON file");
     const auto options = std::make_shared<SimulateOptions>();
-    simulate_app->add_option("scene", options->scene, "Scene file or built-in name")
+    simulate_app->add_option("SCENE", options->scene, "Scene file or built-in name")
         ->required()
-        ->type_name("SCENE");
+        ->type_name("");
     add_settings(*simulate_app, options->overrides);
     add_files(*simulate_app, *options);
     simulate_app->footer(footer());
