@@ -14,6 +14,7 @@ struct RenderOptions {
     std::string preset;  ///< a file or a built-in name
     std::string out;     ///< a WAV file
     std::string stats;   ///< JSON; empty: none; `-`: standard output
+    std::string plot;    ///< waveform and spectrogram; empty: none
     std::uint32_t rate_hz = 48000;
     std::optional<SampleFormat> format;  ///< nothing: PCM of 24 bits
     double gain_db = 0;

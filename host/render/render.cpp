@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/cpu_clock.h"
 #include "common/input_file.h"
@@ -15,6 +16,7 @@
 #include "common/text.h"
 #include "jawari/instrument_model.h"
 #include "midi/midi_file.h"
+#include "plot/audio_plot.h"
 #include "preset/read_preset.h"
 #include "render/audio_file.h"
 #include "render/midi_events.h"
@@ -34,7 +36,18 @@ Outcome<MidiScore> load_score(const std::string& path, std::uint32_t rate_hz) {
     return midi_score(file.value(), rate_hz);
 }
 
-MaybeError open_stats(const std::string& path, std::optional<OutputFile>& target) {
+MaybeError check_names(const RenderOptions& options) {
+    if (options.out == options.stats || options.out == options.plot) {
+        return usage_error("--out", options.out, "another name than that of --stats and --plot");
+    }
+    if (!options.stats.empty() && options.stats == options.plot) {
+        return usage_error("--stats", options.stats, "another name than that of --plot");
+    }
+    return std::nullopt;
+}
+
+/// Opened before any work so that a wrong path is known at once.
+MaybeError open_target(const std::string& path, std::optional<OutputFile>& target) {
     if (path.empty()) return std::nullopt;
     auto file = OutputFile::create(path);
     if (!file) return file.error();
@@ -69,52 +82,76 @@ MaybeError print_summary(const RenderOptions& options, const RenderStats& stats)
     return output.value().commit();
 }
 
+/// The files that the command line asks for.
+struct Outputs {
+    AudioFile audio;
+    std::optional<OutputFile> stats;
+    std::vector<float> plotted;  ///< the sound, if there is a picture to draw
+};
+
+Outcome<Outputs> open_outputs(const RenderOptions& options, std::uint64_t most_frames) {
+    auto audio = AudioFile::create(options.out, options.rate_hz, options.format.value_or(SampleFormat::Pcm24),
+                                   most_frames);
+    if (!audio) return audio.error();
+    Outputs outputs{std::move(audio.value()), {}, {}};
+    if (auto error = open_target(options.stats, outputs.stats)) return *error;
+    std::optional<OutputFile> plot_path;  // the plot is drawn by itself, later; only its path is tried
+    if (auto error = open_target(options.plot, plot_path)) return *error;
+    return outputs;
+}
+
+/// Everything is written before the first file gets its name.
+MaybeError finish(const RenderOptions& options, const RenderStats& stats, Outputs& outputs) {
+    if (outputs.stats) {
+        if (auto error = outputs.stats->write(stats_json(stats))) return error;
+        if (auto error = outputs.stats->flush()) return error;
+    }
+    if (!options.plot.empty()) {
+        const std::string title = options.midi + ", " + options.preset;
+        if (auto error = plot_audio(outputs.plotted, options.rate_hz, title, options.plot)) return error;
+    }
+    if (auto error = outputs.audio.commit()) return error;
+    return outputs.stats ? outputs.stats->commit() : std::nullopt;
+}
+
 }  // namespace
 
 MaybeError render(const RenderOptions& options) {
-    if (options.out == options.stats)
-        return usage_error("--out", options.out, "another name than that of --stats");
+    if (auto error = check_names(options)) return error;
     const auto preset = load_preset(options.preset);
     if (!preset) return preset.error();
     const auto score = load_score(options.midi, options.rate_hz);
     if (!score) return score.error();
     const ScoreSettings settings{std::pow(10.0, options.gain_db / 20), options.tail_s};
-    auto audio = AudioFile::create(options.out, options.rate_hz, options.format.value_or(SampleFormat::Pcm24),
-                                   most_frames(score.value(), settings, options.rate_hz));
-    if (!audio) return audio.error();
-    std::optional<OutputFile> stats_file;
-    if (auto error = open_stats(options.stats, stats_file)) return error;
+    auto outputs = open_outputs(options, most_frames(score.value(), settings, options.rate_hz));
+    if (!outputs) return outputs.error();
 
     RenderStats stats;
     stats.midi = options.midi;
     stats.preset = options.preset;
+    stats.pitch_bends = score.value().pitch_bends;
     const double started = thread_cpu_s();
     const auto model = compile_instrument(preset.value().instrument, options.rate_hz);
     stats.cpu_compile_s = thread_cpu_s() - started;
     if (!model) return invalid_input(preset.value().file, model.failure());
     if (auto stop = interruption()) return stop;
-    print_notices(preset.value().instrument, score.value());
     stats.output_rate_hz = model.value().output_rate_hz;
     stats.contact_rate_hz = model.value().contact_rate_hz;
-    stats.pitch_bends = score.value().pitch_bends;
+    print_notices(preset.value().instrument, score.value());
 
     const SampleSink sink = [&](std::span<const double> block) {
         const double begun = thread_cpu_s();
-        auto error = audio.value().write(block);
+        if (!options.plot.empty()) {
+            for (const double sample : block) outputs.value().plotted.push_back(static_cast<float>(sample));
+        }
+        auto error = outputs.value().audio.write(block);
         stats.cpu_output_s += thread_cpu_s() - begun;
         return error;
     };
     const auto rendered = render_score(model.value(), score.value(), settings, sink);
     if (!rendered) return rendered.error();
     stats.score = rendered.value();
-    if (stats_file) {
-        if (auto error = stats_file->write(stats_json(stats))) return error;
-        if (auto error = stats_file->flush()) return error;
-    }
-    if (auto error = audio.value().commit()) return error;
-    if (stats_file) {
-        if (auto error = stats_file->commit()) return error;
-    }
+    if (auto error = finish(options, stats, outputs.value())) return error;
     warn_of_clipping(options, stats);
     return print_summary(options, stats);
 }

@@ -28,6 +28,7 @@ std::string footer() {
            "All channels play the instrument; notes outside its range are ignored and counted.\n\n"
            "Examples:\n"
            "  jawari render song.mid --preset bass-fretted -o song.wav\n"
+           "  jawari render song.mid --preset bass-fretted -o song.wav --plot song.png\n"
            "  jawari render song.mid --preset my-bass.json -o song.wav --rate 96000 --format float --tail "
            "2\n\n"
            "Exit codes: 0 done; 2 wrong command line; 3 invalid MIDI file or preset; 4 a file cannot be read "
@@ -59,6 +60,15 @@ CLI::Validator tail() {
 CLI::Validator name() {
     return {[](const std::string& text) { return text.empty() ? refusal(text, "a name") : std::string(); },
             ""};
+}
+
+CLI::Validator picture() {
+    const auto check = [](const std::string& text) {
+        const std::string lower = lower_case(text);
+        if (lower.ends_with(".svg") || lower.ends_with(".png")) return std::string();
+        return refusal(text, "a name that ends in .svg or .png");
+    };
+    return {check, ""};
 }
 
 void add_sound_options(CLI::App& app, RenderOptions& options) {
@@ -104,6 +114,9 @@ void add_render_command(CLI::App& app, Command& command) {
     render_app->add_option("--stats", options->stats, "Statistics as JSON; - for standard output")
         ->type_name("FILE.json")
         ->check(name());
+    render_app->add_option("--plot", options->plot, "Waveform and spectrogram: FILE.svg or FILE.png")
+        ->type_name("FILE")
+        ->check(picture());
     render_app->footer(footer());
     render_app->callback([options, &command] { command = [options] { return render(*options); }; });
 }

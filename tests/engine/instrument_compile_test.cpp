@@ -1,0 +1,208 @@
+// Geometry, pitch, losses and pickups of stopped strings: against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "bass_instrument.h"
+#include "instrument_voice.h"
+#include "jawari/instrument_model.h"
+#include "jawari/instrument_state.h"
+
+namespace jawari {
+namespace {
+
+using test::bass_instrument;
+
+constexpr double pi = std::numbers::pi;
+
+const InstrumentModel& bass_model() {
+    static const InstrumentModel model = compile_instrument(bass_instrument(), 48000).value();
+    return model;
+}
+
+TEST(InstrumentCompile, FirstPartialIsTheNoteOnEveryStringAndFret) {
+    for (const InstrumentStringModel& string : bass_model().strings) {
+        ASSERT_EQ(string.stopped.size(), 21U);
+        for (std::size_t fret = 0; fret < string.stopped.size(); ++fret) {
+            const double note = string.open_note + static_cast<double>(fret);
+            const double equal_tempered_hz = 440 * std::pow(2.0, (note - 69) / 12);
+            EXPECT_NEAR(string.stopped[fret].ringing.omega[0] / (2 * pi) / equal_tempered_hz, 1, 1e-13)
+                << string.name << " fret " << fret;
+        }
+    }
+}
+
+TEST(InstrumentCompile, BendingStiffnessDoesNotDependOnTheFret) {
+    const InstrumentDescription bass = bass_instrument();
+    for (const InstrumentStringDescription& string : bass.strings) {
+        const auto stiffness = [&](std::size_t fret) {  // pi^2 E I = B T L^2
+            const StringDescription stopped = stopped_string(string, bass.frets, fret, bass.mode_limit_hz);
+            const auto& modes = std::get<PhysicalModes>(stopped.modes);
+            return modes.inharmonicity * modes.tension_N * stopped.length_m * stopped.length_m;
+        };
+        for (std::size_t fret = 1; fret <= 20; ++fret) EXPECT_NEAR(stiffness(fret) / stiffness(0), 1, 1e-13);
+    }
+}
+
+TEST(InstrumentCompile, PartialsStretchAndStopAtTheLimit) {
+    const InstrumentDescription bass = bass_instrument();
+    const StringModel& e = bass_model().strings[0].stopped[0].ringing;
+    const double B = bass.strings[0].inharmonicity;
+    for (std::size_t k = 1; k <= e.mode_count; ++k) {
+        const double n = static_cast<double>(k);
+        const double expected = n * std::sqrt((1 + B * n * n) / (1 + B));
+        EXPECT_NEAR(e.omega[k - 1] / e.omega[0] / expected, 1, 1e-12);
+    }
+    EXPECT_LE(e.omega[e.mode_count - 1] / (2 * pi), bass.mode_limit_hz);
+    const double next = static_cast<double>(e.mode_count + 1);
+    EXPECT_GT(e.omega[0] / (2 * pi) * next * std::sqrt((1 + B * next * next) / (1 + B)), bass.mode_limit_hz);
+}
+
+/// In the neck's own coordinates: from the nut, heights from the open string's rest line.
+TEST(InstrumentCompile, FretsBeyondTheStopKeepTheirPlaceInSpace) {
+    const InstrumentDescription bass = bass_instrument();
+    const double length = bass.strings[0].length_m;
+    const auto fret_x = [&](std::size_t j) {
+        return length * (1 - std::pow(0.5, static_cast<double>(j) / 12));
+    };
+    for (std::size_t fret = 0; fret <= 20; ++fret) {
+        const StringDescription stopped = stopped_string(bass.strings[0], bass.frets, fret, 10000);
+        ASSERT_EQ(stopped.contacts.size(), 20 - fret);
+        const double stop_x = fret_x(fret);
+        const double stop_h = fret == 0 ? 0 : bass.frets.height_m[fret - 1];
+        for (std::size_t j = fret + 1; j <= 20; ++j) {
+            const ContactDescription& contact = stopped.contacts[j - fret - 1];
+            EXPECT_NEAR(stop_x + contact.position_m, fret_x(j), 1e-15);
+            // The stopped string's rest line in space runs from the fret's top to the bridge.
+            const double line = stop_h * (length - fret_x(j)) / (length - stop_x);
+            EXPECT_NEAR(line + contact.height_m, bass.frets.height_m[j - 1], 1e-17);
+            EXPECT_LT(contact.height_m, 0);
+        }
+    }
+}
+
+/// Puts a ringing voice into a known modal state and compares what it does after the hand came down with the
+/// solution of the damped oscillator that starts from the same position and true velocity.
+TEST(InstrumentCompile, DampingHandKeepsPositionAndTrueVelocity) {
+    const InstrumentModel& model = bass_model();
+    const InstrumentStringModel& string = model.strings[1];
+    const StoppedStringModel& stopped = string.stopped[3];
+    const std::size_t steps = model.steps_per_frame;
+    for (const std::size_t k :
+         {std::size_t{0}, std::size_t{1}, std::size_t{7}, stopped.ringing.mode_count - 1}) {
+        const double q0 = 1e-6;  // reaches no fret
+        const double u0 = -0.4 * stopped.ringing.omega[k] * q0;
+        const auto motion = [&](const StringModel& m, double t) {
+            const double s = m.sigma[k];
+            const double w = std::sqrt(m.omega[k] * m.omega[k] - s * s);
+            return std::exp(-s * t) * (q0 * std::cos(w * t) + (u0 + s * q0) / w * std::sin(w * t));
+        };
+        InstrumentState state = make_instrument_state(model);
+        Voice& voice = state.strings[1].voices[0];
+        start_voice(model, string, voice, 3, 0.5);
+        voice.age = 1000000;  // the pluck is over
+        voice.pluck_force_N = 0;
+        const double h = stopped.ringing.step_s;
+        voice.string.displacement[k] = q0;
+        voice.string.velocity[k] = (q0 - motion(stopped.ringing, -h)) / h;
+        damp_voice(string, voice);
+        Counters finished;
+        for (int frame = 1; frame <= 5; ++frame) {
+            advance_voice(model, string, voice, finished);
+            const double t = h * static_cast<double>(steps) * frame;
+            EXPECT_NEAR(voice.string.displacement[k], motion(stopped.damped, t), 1e-9 * q0)
+                << "mode " << k + 1;
+        }
+        EXPECT_NEAR(stopped.damped.sigma[k] - stopped.ringing.sigma[k], std::log(1000.0) / 0.1, 1e-10);
+    }
+}
+
+TEST(InstrumentCompile, FullVelocityLiftsTheStringAsHighAsSaid) {
+    InstrumentDescription bass = bass_instrument();
+    for (double& height : bass.frets.height_m) height *= 20;  // out of reach
+    const InstrumentModel model = compile_instrument(bass, 48000).value();
+    for (const std::size_t fret : {0U, 7U, 20U}) {
+        const InstrumentStringModel& string = model.strings[0];
+        InstrumentState state = make_instrument_state(model);
+        Voice& voice = state.strings[0].voices[0];
+        start_voice(model, string, voice, fret, 1);
+        Counters finished;
+        double highest = 0;
+        for (std::size_t frame = 0; frame + 1 < model.pluck_shape.size(); ++frame) {
+            advance_voice(model, string, voice, finished);
+            double lift = 0;
+            for (std::size_t k = 0; k < string.stopped[fret].ringing.mode_count; ++k) {
+                lift += string.stopped[fret].pluck_row[k] * voice.string.displacement[k];
+            }
+            highest = std::max(highest, lift);
+        }
+        EXPECT_NEAR(highest, bass.pluck.full_height_m, 1e-6 * bass.pluck.full_height_m) << "fret " << fret;
+    }
+}
+
+TEST(InstrumentCompile, NothingAboveTheOutputsNyquistRateIsHeard) {
+    InstrumentDescription bass = bass_instrument();
+    bass.mode_limit_hz = 40000;
+    const InstrumentModel model = compile_instrument(bass, 44100).value();
+    for (const InstrumentStringModel& string : model.strings) {
+        const StoppedStringModel& open = string.stopped[0];
+        bool above = false;
+        for (std::size_t k = 0; k < open.ringing.mode_count; ++k) {
+            if (open.ringing.omega[k] / (2 * pi) < 22050) continue;
+            above = true;
+            EXPECT_EQ(open.output_row[k], 0);
+        }
+        EXPECT_TRUE(above);
+        EXPECT_NE(open.output_row[0], 0);
+    }
+}
+
+TEST(InstrumentCompile, ContactRateIsRoundedUpToAMultipleOfTheOutputRate) {
+    InstrumentDescription bass = bass_instrument();
+    bass.strings.resize(1);
+    bass.frets.height_m.resize(2);
+    for (const double rate : {44100.0, 48000.0, 96000.0}) {
+        const InstrumentModel model = compile_instrument(bass, rate).value();
+        EXPECT_GE(model.contact_rate_hz, bass.contact_rate_min_hz);
+        EXPECT_LT(model.contact_rate_hz, bass.contact_rate_min_hz + rate);
+        EXPECT_EQ(model.contact_rate_hz, rate * static_cast<double>(model.steps_per_frame));
+    }
+}
+
+TEST(InstrumentCompile, RefusesWhatCannotBeBuilt) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto place_of = [](auto change, double rate = 48000) {
+        InstrumentDescription bass = bass_instrument();
+        change(bass);
+        const auto model = compile_instrument(bass, rate);
+        return model.ok() ? "accepted" : model.failure().place;
+    };
+    using D = InstrumentDescription;
+    EXPECT_EQ(place_of([](D&) {}, 100), "output rate");
+    EXPECT_EQ(place_of([&](D& d) { d.gain = nan; }), "gain");
+    EXPECT_EQ(place_of([](D& d) { d.contact_rate_min_hz = 1; }), "contact_rate_min_hz");
+    EXPECT_EQ(place_of([](D& d) { d.mode_limit_hz = 1e9; }), "mode_limit_hz");
+    EXPECT_EQ(place_of([](D& d) { d.mode_limit_hz = 4e6, d.contact_rate_min_hz = 1e7; }), "mode_limit_hz");
+    EXPECT_EQ(place_of([](D& d) { d.release_t60_s = 0; }), "release_t60_s");
+    EXPECT_EQ(place_of([](D& d) { d.strings.clear(); }), "strings");
+    EXPECT_EQ(place_of([](D& d) { d.strings[2].open_frequency_hz = -55; }), "strings[2].open_frequency_hz");
+    EXPECT_EQ(place_of([](D& d) { d.strings[3].open_note = 120; }), "strings[3].open_note");
+    EXPECT_EQ(place_of([](D& d) { d.strings[1].damping = ValetteLoss{}; }),
+              "strings[1].modes.damping.diameter_m");
+    EXPECT_EQ(place_of([](D& d) { d.frets.height_m[4] = 1e-3; }), "frets.height_m[4]");
+    EXPECT_EQ(place_of([&](D& d) { d.frets.height_m[4] = nan; }), "frets.height_m[4]");
+    EXPECT_EQ(place_of([](D& d) { d.frets.height_m[9] = -0.002; }),
+              "frets.height_m[9]");  // above the line from fret 9
+    EXPECT_EQ(place_of([](D& d) { d.frets.restitution = 2; }), "frets.restitution");
+    EXPECT_EQ(place_of([](D& d) { d.pluck.position_from_bridge_m = 0.3; }), "pluck.position_from_bridge_m");
+    EXPECT_EQ(place_of([](D& d) { d.pluck.full_height_m = 1; }), "pluck.full_height_m");
+    EXPECT_EQ(place_of([](D& d) { d.pickups.clear(); }), "pickups");
+    EXPECT_EQ(place_of([](D& d) { d.pickups[0].position_from_bridge_m = 0; }),
+              "pickups[0].position_from_bridge_m");
+    EXPECT_EQ(place_of([](D& d) { d.pickups[0].width_m = -1; }), "pickups[0].width_m");
+}
+
+}  // namespace
+}  // namespace jawari
