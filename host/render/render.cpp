@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -107,7 +108,8 @@ MaybeError finish(const RenderOptions& options, const RenderStats& stats, Output
         if (auto error = outputs.stats->flush()) return error;
     }
     if (!options.plot.empty()) {
-        const std::string title = options.midi + ", " + options.preset;
+        const std::string title =
+            std::filesystem::path(options.midi).filename().string() + ", " + options.preset;
         if (auto error = plot_audio(outputs.plotted, options.rate_hz, title, options.plot)) return error;
     }
     if (auto error = outputs.audio.commit()) return error;
