@@ -72,7 +72,7 @@ TEST(Contact, GapsFollowTheStringOverThousandsOfSteps) {
             EXPECT_NEAR(state.contact.gap[c], gap_of(model, state, c), 1e-13);
         }
         EXPECT_GT(largest, 1e-5);
-        refresh_gaps(model, state);
+        place_gaps(model, state);
         for (std::size_t c = 0; c < model.contact_count; ++c) {
             EXPECT_NEAR(state.contact.gap[c], gap_of(model, state, c), 1e-17);
         }

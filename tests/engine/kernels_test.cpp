@@ -63,8 +63,9 @@ TEST(Kernels, FreeVelocity) {
         for (const std::size_t n : sizes) {
             const Values carry = random(n), change = random(n), restoring = random(n), q = random(n),
                          v = random(n);
-            Values result = v;
-            kernels::free_velocity(n, carry.data(), change.data(), restoring.data(), q.data(), result.data());
+            Values result(n);
+            kernels::free_velocity(n, carry.data(), change.data(), restoring.data(), q.data(), v.data(),
+                                   result.data());
             for (std::size_t k = 0; k < n; ++k) {
                 const long double a = static_cast<long double>(carry[k]) * v[k];
                 const long double b = static_cast<long double>(change[k]) * v[k];
@@ -89,8 +90,9 @@ TEST(Kernels, FreeVelocityRoundsASmallChangeOnlyOnceAtFullSize) {
             q[k] = 1e-6 * uniform(random);
             v[k] = uniform(random);
         }
-        Values result = v;
-        kernels::free_velocity(n, carry.data(), change.data(), restoring.data(), q.data(), result.data());
+        Values result(n);
+        kernels::free_velocity(n, carry.data(), change.data(), restoring.data(), q.data(), v.data(),
+                               result.data());
         for (std::size_t k = 0; k < n; ++k) {
             const long double truth = static_cast<long double>(v[k]) +
                                       static_cast<long double>(change[k]) * v[k] +
@@ -105,20 +107,37 @@ TEST(Kernels, RowProducts) {
         RandomValues random;
         for (const std::size_t n : sizes) {
             for (const std::size_t rows : {0U, 1U, 2U, 3U, 4U, 5U, 7U, 8U, 21U}) {
-                const Values matrix = random(rows * n), x = random(n);
-                Values result(rows + 1, -3.0);
-                kernels::row_products(rows, n, matrix.data(), x.data(), result.data());
+                const std::size_t stride = n + 8;  // only the first n of each row take part
+                Values matrix = random(rows * stride);
+                const Values x = random(n);
+                std::vector<std::uint32_t> indices;
+                for (std::size_t c = 0; c < rows; c += 1 + c % 3)
+                    indices.push_back(static_cast<std::uint32_t>(c));
+                Values all(rows + 1, -3.0);
+                Values some(rows + 1, -3.0);
+                for (std::size_t c = 0; c < rows; ++c) matrix[c * stride + n] = std::nan("");
+                kernels::row_products(rows, n, stride, matrix.data(), x.data(), all.data());
+                kernels::indexed_row_products(indices.data(), indices.size(), n, stride, matrix.data(),
+                                              x.data(), some.data());
+                std::size_t named = 0;
                 for (std::size_t c = 0; c < rows; ++c) {
                     long double sum = 0;
                     long double magnitude = 0;
                     for (std::size_t k = 0; k < n; ++k) {
-                        const long double term = static_cast<long double>(matrix[c * n + k]) * x[k];
+                        const long double term = static_cast<long double>(matrix[c * stride + k]) * x[k];
                         sum += term;
                         magnitude += std::abs(term);
                     }
-                    expect_sum(result[c], sum, magnitude, n);
+                    expect_sum(all[c], sum, magnitude, n);
+                    if (named < indices.size() && indices[named] == c) {
+                        expect_sum(some[c], sum, magnitude, n);
+                        named += 1;
+                    } else {
+                        EXPECT_EQ(some[c], -3);
+                    }
                 }
-                EXPECT_EQ(result[rows], -3);
+                EXPECT_EQ(all[rows], -3);
+                EXPECT_EQ(some[rows], -3);
             }
         }
     });

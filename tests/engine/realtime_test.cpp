@@ -1,0 +1,276 @@
+// Rendering takes no memory and asks nothing of the system: both are trapped, and the traps are shown to
+// work.
+#include "jawari/realtime.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "jawari/jawari.h"
+#include "scenes.h"
+
+// Sanitizers replace the allocator themselves and make system calls of their own.
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#include <malloc.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+#if defined(__linux__) && defined(__x86_64__)
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <cstddef>
+#define JAWARI_TRAPS_SYSTEM_CALLS 1
+#endif
+
+namespace {
+
+thread_local bool allocation_forbidden = false;
+thread_local unsigned long allocations = 0;
+
+void note_allocation() {
+    if (allocation_forbidden) allocations += 1;
+}
+
+}  // namespace
+
+// The C++ operators, aligned or not, end here as well.
+extern "C" {
+void* __libc_malloc(std::size_t);                 // NOLINT(bugprone-reserved-identifier)
+void* __libc_calloc(std::size_t, std::size_t);    // NOLINT(bugprone-reserved-identifier)
+void* __libc_realloc(void*, std::size_t);         // NOLINT(bugprone-reserved-identifier)
+void* __libc_memalign(std::size_t, std::size_t);  // NOLINT(bugprone-reserved-identifier)
+void __libc_free(void*);                          // NOLINT(bugprone-reserved-identifier)
+
+void* malloc(std::size_t size) {
+    note_allocation();
+    return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+    note_allocation();
+    return __libc_calloc(count, size);
+}
+void* realloc(void* block, std::size_t size) {
+    note_allocation();
+    return __libc_realloc(block, size);
+}
+void* memalign(std::size_t alignment, std::size_t size) {
+    note_allocation();
+    return __libc_memalign(alignment, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+    note_allocation();
+    return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
+    note_allocation();
+    *block = __libc_memalign(alignment, size);
+    return *block == nullptr ? 12 : 0;  // ENOMEM
+}
+void free(void* block) {
+    if (block != nullptr) note_allocation();
+    __libc_free(block);
+}
+}
+
+namespace jawari {
+namespace {
+
+struct NoAllocation {
+    NoAllocation() {
+        allocations = 0;
+        allocation_forbidden = true;
+    }
+    ~NoAllocation() { allocation_forbidden = false; }
+    NoAllocation(const NoAllocation&) = delete;
+    NoAllocation& operator=(const NoAllocation&) = delete;
+};
+
+/// Keeps the compiler from leaving an allocation out.
+template <class T>
+T* used(T* pointer) {
+    asm volatile("" : "+r"(pointer) : : "memory");
+    return pointer;
+}
+
+TEST(Realtime, TheAllocationTrapFires) {
+    const auto trapped = [](const std::function<void()>& act) {
+        const NoAllocation zone;
+        act();
+        return allocations;
+    };
+    EXPECT_EQ(trapped([] {}), 0U);
+    EXPECT_EQ(trapped([] { std::free(used(std::malloc(10))); }), 2U);
+    EXPECT_EQ(trapped([] { std::free(used(std::calloc(10, 3))); }), 2U);
+    EXPECT_EQ(trapped([] { std::free(used(std::realloc(used(std::malloc(10)), 100))); }), 3U);
+    EXPECT_EQ(trapped([] { std::free(used(std::aligned_alloc(64, 128))); }), 2U);
+    EXPECT_EQ(trapped([] { delete used(new int(3)); }), 2U);
+    EXPECT_EQ(trapped([] {
+                  AlignedVector<double> x(100, 1.0);
+                  used(x.data());
+              }),
+              2U);
+    EXPECT_GE(trapped([] {
+                  std::vector<int> x;
+                  x.push_back(1);
+                  used(x.data());
+              }),
+              2U);
+}
+
+/// Everything an audio thread may do with a scene, through every branch that the scene reaches.
+struct Performance {
+    SceneModel model;
+    SceneState state;
+    std::vector<double> samples;
+    std::vector<double*> outputs;
+    static constexpr std::size_t block = 64;
+
+    Performance(ImpactLaw law, Scheme scheme, Metering metering, Skipping skipping) {
+        SceneDescription scene;
+        scene.contact_rate_hz = 96000;
+        scene.law = law;
+        scene.scheme = scheme;
+        scene.theta = 0.75;
+        scene.strings.push_back(test::bass_string(862));
+        scene.strings.push_back(test::bass_string(60));
+        for (auto& contact : scene.strings[0].contacts) contact.restitution = 0.5;
+        scene.strings[0].contacts.push_back({0.4, 0.004, 0, Side::Above});
+        scene.strings[0].probes = {{Quantity::Displacement, 0.5, 0},
+                                   {Quantity::Velocity, 0.5, 0},
+                                   {Quantity::ContactForce, 0, 3},
+                                   {Quantity::Energy, 0, 0}};
+        model = compile(scene).value();
+        state = make_state(model, metering, skipping);
+        samples.assign(model.probe_count * block, 0.0);
+        for (std::size_t p = 0; p < model.probe_count; ++p) outputs.push_back(samples.data() + p * block);
+    }
+
+    void play() {
+        StringState& string = state.strings[0];
+        const StringModel& string_model = model.strings[0];
+        for (int n = 0; n < 6; ++n) render(model, state, outputs, block);
+        move_contact(string_model, string, 5, 1e-3, 100);
+        for (std::size_t k = 0; k < string_model.mode_count; ++k) {
+            string.force_row[k] = mode_shape(k + 1, 0.1, string_model.length_m);
+        }
+        string.force = 0.1;
+        string.force_rate = 1e-4;
+        notice_change(string_model, string);
+        for (int n = 0; n < 3; ++n) render(model, state, outputs, block);
+        // A solve without room is truncated; the workspace only shrinks.
+        string.lcp.capacity = 1;
+        string.lcp.active_count = 0;
+        for (int n = 0; n < 3; ++n) render(model, state, outputs, block);
+        string.displacement[3] = std::nan("");
+        notice_change(string_model, string);
+        render(model, state, outputs, block);
+        put_to_rest(model.strings[1], state.strings[1]);
+        for (int n = 0; n < 2; ++n) render(model, state, outputs, block);
+        reset(string_model, string);
+        for (int n = 0; n < 2; ++n) render(model, state, outputs, block);
+    }
+};
+
+std::vector<std::unique_ptr<Performance>> performances() {
+    std::vector<std::unique_ptr<Performance>> all;
+    for (const Skipping& skipping : {skip_all, skip_nothing}) {
+        for (const ImpactLaw law :
+             {ImpactLaw::Newton, ImpactLaw::Passive, ImpactLaw::Signorini, ImpactLaw::PaoliSchatzman}) {
+            all.push_back(std::make_unique<Performance>(law, Scheme::Exact, Metering::Off, skipping));
+        }
+    }
+    all.push_back(
+        std::make_unique<Performance>(ImpactLaw::Signorini, Scheme::Exact, Metering::Step, skip_all));
+    all.push_back(std::make_unique<Performance>(ImpactLaw::Newton, Scheme::Exact, Metering::Frame, skip_all));
+    all.push_back(std::make_unique<Performance>(ImpactLaw::Newton, Scheme::Theta, Metering::Off, skip_all));
+    return all;
+}
+
+TEST(Realtime, RenderingTakesNoMemory) {
+    for (const auto& performance : performances()) {
+        unsigned long hits = 0;
+        {
+            const NoAllocation zone;
+            performance->play();
+            hits = allocations;
+        }
+        EXPECT_EQ(hits, 0U);
+        EXPECT_GT(
+            performance->state.strings[1].counters.impulses + performance->state.strings[0].counters.impulses,
+            0U);
+    }
+}
+
+#ifdef JAWARI_TRAPS_SYSTEM_CALLS
+
+volatile std::sig_atomic_t system_calls = 0;
+
+/// In this process and from now on, every system call but leaving raises SIGSYS, which counts.
+bool trap_system_calls() {
+    struct sigaction action = {};
+    action.sa_handler = [](int) { system_calls = system_calls + 1; };
+    action.sa_flags = SA_NODEFER;
+    if (sigaction(SIGSYS, &action, nullptr) != 0) return false;
+    sock_filter filter[] = {
+        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_exit_group, 1, 0),
+        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_rt_sigreturn, 0, 1),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_TRAP),
+    };
+    const sock_fprog program{sizeof filter / sizeof *filter, filter};
+    return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+           prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
+}
+
+constexpr int no_filter = 99;
+constexpr int trap_is_dead = 98;
+
+/// Exit code: system calls made by the performances, or one of the codes above.
+[[noreturn]] void play_without_system_calls(const std::vector<std::unique_ptr<Performance>>& all) {
+    if (!trap_system_calls()) _exit(no_filter);
+    syscall(SYS_getppid);
+    if (system_calls != 1) _exit(trap_is_dead);
+    for (const auto& performance : all) performance->play();
+    _exit(std::min(static_cast<int>(system_calls) - 1, 90));
+}
+
+TEST(Realtime, RenderingMakesNoSystemCalls) {
+    const auto all = performances();
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) play_without_system_calls(all);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status)) << "signal " << WTERMSIG(status);
+    if (WEXITSTATUS(status) == no_filter)
+        GTEST_SKIP() << "this system does not let a process filter its calls";
+    EXPECT_NE(WEXITSTATUS(status), trap_is_dead);
+    EXPECT_EQ(WEXITSTATUS(status), 0) << "system calls while rendering";
+}
+
+#endif
+
+}  // namespace
+}  // namespace jawari
+
+#else
+
+namespace jawari {
+namespace {
+
+TEST(Realtime, IsTestedWithoutSanitizers) {
+    GTEST_SKIP() << "sanitizers own the allocator";
+}
+
+}  // namespace
+}  // namespace jawari
+
+#endif
