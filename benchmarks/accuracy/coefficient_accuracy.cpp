@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <random>
 
 #include "high_precision.h"
@@ -16,7 +17,7 @@ using jawari::test::Definition;
 using jawari::test::Real;
 
 struct WorstErrors {
-    double conditioning = 0;  ///< 3.5 roundings of the sine's argument, amplified
+    double conditioning = 0;  ///< 3.5 roundings of the sine's argument to double, amplified
     double engine = 0;
     double engine_beyond = 0;  ///< engine, less what a condition above 2 costs
     double source = 0;
@@ -36,9 +37,11 @@ void raise(double& worst, double error) {
 void measure(WorstErrors& worst, double omega, double sigma, double h) {
     const Definition truth = jawari::test::definition_of(omega, sigma, h);
     const double condition = std::abs(static_cast<double>(truth.argument_condition));
-    const double roundings = 3.5 * 0x1p-53;
+    // The engine works in long double, rivals in double.
+    const double roundings = 3.5 * static_cast<double>(std::numeric_limits<long double>::epsilon() / 2);
+    const double roundings_of_double = 3.5 * 0x1p-53;
     const double engine = relative_error(jawari::exact_step(omega, sigma, h).mobility, truth.w);
-    raise(worst.conditioning, roundings * condition);
+    raise(worst.conditioning, roundings_of_double * condition);
     raise(worst.engine, engine);
     raise(worst.engine_beyond, std::max(0.0, engine - roundings * std::max(0.0, condition - 2)));
     raise(worst.source, relative_error(jawari::rivals::mobility_by_source(omega, sigma, h), truth.w));
@@ -65,7 +68,7 @@ WorstErrors worst_of_decade(int decade, bool overdamped) {
 void print_row(int decade, bool overdamped) {
     const WorstErrors worst = worst_of_decade(decade, overdamped);
     std::printf("| 1e%d to 1e%d | %s | %.1e | %.1e | %.1e | %.1e | %.1e | %.1e |\n", decade, decade + 1,
-                overdamped ? "1 to 1e6" : "0 to 1", worst.engine_beyond, worst.engine, worst.conditioning,
+                overdamped ? "1 to 1e6" : "0 to 1", worst.engine, worst.engine_beyond, worst.conditioning,
                 worst.source, worst.difference, worst.taylor);
 }
 
@@ -73,7 +76,8 @@ void print_row(int decade, bool overdamped) {
 
 int main() {
     std::printf(
-        "| omega h | sigma/omega | engine, beyond conditioning | engine | conditioning of the sine | "
+        "| omega h | sigma/omega | engine | engine, beyond conditioning | conditioning of the sine in double "
+        "| "
         "source's formula | 1 + e - A | Taylor, order 7 |\n|---|---|---|---|---|---|---|---|\n");
     for (const bool overdamped : {false, true}) {
         for (int decade = -9; decade < 3; ++decade) print_row(decade, overdamped);

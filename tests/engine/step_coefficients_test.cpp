@@ -25,13 +25,18 @@ double relative_error(double value, const Real& truth) {
     return static_cast<double>(abs((Real(value) - truth) / truth));
 }
 
-/// 1e-15, and what the sine's argument costs where it is ill conditioned: W h carries at most 3.5 roundings
-/// (two in the factors of W^2 and one in their product, all halved by the root, one in the root, one in the
-/// product with h), of which each costs unit_roundoff * |d ln d/d ln(W h)|. A condition up to 2 (that of a
-/// square) is part of the 1e-15.
+/// Coefficients are computed in long double and rounded once.
+constexpr bool extended = std::numeric_limits<long double>::digits > std::numeric_limits<double>::digits;
+constexpr double working_roundoff = static_cast<double>(std::numeric_limits<long double>::epsilon() / 2);
+
+/// 1e-15 (two roundings where long double is wider), and what the sine's argument costs where it is ill
+/// conditioned: W h carries at most 3.5 roundings (two in the factors of W^2 and one in their product, all
+/// halved by the root, one in the root, one in the product with h), of which each costs |d ln d/d ln(W h)|
+/// times its size. A condition up to 2 (that of a square) is part of the 1e-15.
 double allowance(const Real& argument_condition) {
     const double condition = std::abs(static_cast<double>(argument_condition));
-    return 1e-15 + 3.5 * unit_roundoff * std::max(0.0, condition - 2);
+    const double well_conditioned = extended ? 2 * unit_roundoff : 1e-15;
+    return well_conditioned + 3.5 * working_roundoff * std::max(0.0, condition - 2);
 }
 
 void expect_exact(double omega, double sigma, double h) {
