@@ -75,6 +75,11 @@ void pass_uniformly(const StringModel& model, StringState& state) {
     forget_bounds(state);
 }
 
+/// H can only rise in frames with contact or excitation.
+void meter_highest(const StringModel& model, StringState& state) {
+    if (state.metering == Metering::Frame) meter_frame(model, state);
+}
+
 bool is_finite(const StringState& state) {
     return kernels::all_finite(state.active_modes, state.displacement.data()) &&
            kernels::all_finite(state.active_modes, state.velocity.data());
@@ -85,17 +90,21 @@ bool advance_awake(const StringModel& model, StringState& state) {
     const bool moving = state.contact.moving_count > 0;
     if (!may_skip(model, state) || moving || (!state.skipping.certificate && model.contact_count > 0)) {
         pass_uniformly(model, state);
+        meter_highest(model, state);
         return is_finite(state);
     }
     if (needs_refresh(state)) refresh_bounds(model, state);
     if (state.asleep) return true;
     if (!fly(model, state)) return false;
+    const bool excited = is_excited(state);
     if (choose_near_contacts(model, state)) {
         pass_near(model, state);
+        meter_highest(model, state);
         return is_finite(state);
     }
     pass_freely(model, state);
     advance_bounds(model, state);
+    if (excited) meter_highest(model, state);
     return true;
 }
 
@@ -112,7 +121,6 @@ void advance_frame(const StringModel& model, StringState& state) JAWARI_REALTIME
         state.counters.asleep_frames += 1;
         state.counters.steps += model.steps_per_frame;
     }
-    if (state.metering == Metering::Frame) meter_frame(model, state);
     state.frame += 1;
 }
 

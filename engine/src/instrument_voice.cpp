@@ -106,18 +106,4 @@ double voice_energy(const InstrumentStringModel& string, const Voice& voice) JAW
     return energy(string_model(string, voice), voice.string);
 }
 
-void accumulate(const Counters& more, Counters& sum) JAWARI_REALTIME {
-    sum.steps += more.steps;
-    sum.candidates += more.candidates;
-    sum.impulses += more.impulses;
-    sum.solves += more.solves;
-    sum.truncated_solves += more.truncated_solves;
-    sum.flown_frames += more.flown_frames;
-    sum.near_frames += more.near_frames;
-    sum.asleep_frames += more.asleep_frames;
-    sum.nonfinite_resets += more.nonfinite_resets;
-    sum.worst_residual_m = std::max(sum.worst_residual_m, more.worst_residual_m);
-    sum.worst_penetration_m = std::max(sum.worst_penetration_m, more.worst_penetration_m);
-}
-
 }  // namespace jawari

@@ -25,7 +25,4 @@ double advance_voice(const InstrumentModel& model, const InstrumentStringModel& 
 /// The voice's energy [J].
 double voice_energy(const InstrumentStringModel& string, const Voice& voice) JAWARI_REALTIME;
 
-/// Adds the counts of `more` to `sum`, and keeps the worst of the worsts.
-void accumulate(const Counters& more, Counters& sum) JAWARI_REALTIME;
-
 }  // namespace jawari

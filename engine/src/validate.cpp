@@ -208,19 +208,36 @@ Check check_rates(const SceneDescription& scene) {
     return {};
 }
 
+std::string name_of(ImpactLaw law) {
+    switch (law) {
+        case ImpactLaw::Newton:
+            return "newton";
+        case ImpactLaw::Passive:
+            return "passive";
+        case ImpactLaw::Signorini:
+            return "signorini";
+        case ImpactLaw::PaoliSchatzman:
+            return "paoli-schatzman";
+    }
+    return "an unknown law";
+}
+
 Check check_scheme(const SceneDescription& scene) {
     if (scene.scheme == Scheme::Exact) return {};
     if (auto failure = check("theta", scene.theta, {0.5, 1})) return failure;
     if (scene.law != ImpactLaw::Newton)
-        return Failure{"law", "not newton", "newton, the only law of the theta scheme"};
+        return Failure{"law", name_of(scene.law), "newton, the only law of the theta scheme"};
     return {};
 }
 
 }  // namespace
 
 std::string printed(double value) {
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+    char text[64];
+    // Rates read better as 2000000 than as 2e+06.
+    const bool plain = value == 0 || (std::abs(value) >= 1e-4 && std::abs(value) < 1e15);
+    const auto end = plain ? std::to_chars(text, text + sizeof text, value, std::chars_format::fixed).ptr
+                           : std::to_chars(text, text + sizeof text, value).ptr;
     return {text, end};
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "jawari/description.h"
+#include "jawari/skipping.h"
 
 namespace jawari::host {
 
@@ -23,6 +24,7 @@ struct Overrides {
 struct SimulateOptions {
     std::string scene;  ///< a file or a built-in name
     Overrides overrides;
+    Skipping skipping;
     std::string out;    ///< empty: none; `-`: CSV on standard output
     std::string stats;  ///< empty: none; `-`: standard output
     std::string plot;   ///< empty: none

@@ -41,9 +41,9 @@ void append_energies(const StringModel& model, const StringState& state, StringR
 }  // namespace
 
 RowRenderer::RowRenderer(const SceneModel& model, std::uint64_t last_row, Metering metering,
-                         bool with_contacts, Observer observer)
+                         const Skipping& skipping, bool with_contacts, Observer observer)
     : model_(model),
-      state_(make_state(model, metering)),
+      state_(make_state(model, metering, skipping)),
       observer_(std::move(observer)),
       outputs_(model.probe_count),
       last_row_(last_row),

@@ -33,8 +33,8 @@ class RowRenderer {
     using Observer = std::function<void(std::uint64_t row, const SceneState&)>;
 
     /// `with_contacts`: fill RowBlock::strings as well. The model must outlive the renderer.
-    RowRenderer(const SceneModel& model, std::uint64_t last_row, Metering metering, bool with_contacts,
-                Observer observer = {});
+    RowRenderer(const SceneModel& model, std::uint64_t last_row, Metering metering, const Skipping& skipping,
+                bool with_contacts, Observer observer = {});
 
     /// The next rows, 1 to 256 of them: few enough that it takes about a tenth of a second. Precondition:
     /// !finished().

@@ -105,7 +105,7 @@ RowRenderer make_renderer(Run& run) {
         observer = [&run](std::uint64_t row, const SceneState& state) { run.recorder->observe(row, state); };
     const bool with_contacts =
         run.recorder || (run.output && std::holds_alternative<Hdf5Output>(*run.output));
-    return {run.model, run.last_row, run.metering, with_contacts, observer};
+    return {run.model, run.last_row, run.metering, run.options.skipping, with_contacts, observer};
 }
 
 MaybeError render_all(Run& run, RowRenderer& renderer) {

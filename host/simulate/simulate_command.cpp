@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/command_line.h"
 #include "common/text.h"
@@ -90,6 +91,40 @@ void add_files(CLI::App& app, SimulateOptions& options) {
             ""));
 }
 
+/// The switches of Skipping by the words of --no-skip.
+const std::map<std::string, bool Skipping::*> skips{{"flight", &Skipping::flight},
+                                                    {"certificate", &Skipping::certificate},
+                                                    {"near", &Skipping::near},
+                                                    {"lazy", &Skipping::lazy},
+                                                    {"sleep", &Skipping::sleep}};
+
+void switch_off(Skipping& skipping, const std::string& what) {
+    if (what == "all") {
+        skipping = skip_nothing;
+    } else {
+        skipping.*skips.at(what) = false;
+    }
+}
+
+void add_skipping(CLI::App& app, Skipping& skipping) {
+    app.add_option_function<std::vector<std::string>>(
+           "--no-skip",
+           [&skipping](const std::vector<std::string>& words) {
+               for (const std::string& what : words) switch_off(skipping, what);
+           },
+           "What not to skip, for measurement: all, or some of flight, certificate, near, lazy, sleep")
+        ->type_name("WHAT[,WHAT...]")
+        ->delimiter(',')
+        ->expected(1)
+        ->check(CLI::Validator(
+            [](const std::string& what) {
+                return what == "all" || skips.contains(what)
+                           ? std::string()
+                           : refusal(what, "all, flight, certificate, near, lazy, sleep");
+            },
+            ""));
+}
+
 }  // namespace
 
 void add_simulate_command(CLI::App& app, Command& command) {
@@ -100,6 +135,7 @@ void add_simulate_command(CLI::App& app, Command& command) {
         ->required()
         ->type_name("");
     add_settings(*simulate_app, options->overrides);
+    add_skipping(*simulate_app, options->skipping);
     add_files(*simulate_app, *options);
     simulate_app->footer(footer());
     simulate_app->callback([options, &command] { command = [options] { return simulate(*options); }; });

@@ -42,16 +42,7 @@ SimulationStats collect_stats(const Scene& scene, const SceneModel& model, const
 
 Counters total_counters(const SimulationStats& stats) {
     Counters total;
-    for (const StringStats& string : stats.strings) {
-        total.steps += string.counters.steps;
-        total.candidates += string.counters.candidates;
-        total.impulses += string.counters.impulses;
-        total.solves += string.counters.solves;
-        total.truncated_solves += string.counters.truncated_solves;
-        total.nonfinite_resets += string.counters.nonfinite_resets;
-        total.worst_residual_m = std::max(total.worst_residual_m, string.counters.worst_residual_m);
-        total.worst_penetration_m = std::max(total.worst_penetration_m, string.counters.worst_penetration_m);
-    }
+    for (const StringStats& string : stats.strings) accumulate(string.counters, total);
     return total;
 }
 

@@ -44,6 +44,9 @@ void add_counters(Json& json, const Counters& counters) {
     json["impulses"] = counters.impulses;
     json["solves"] = counters.solves;
     json["truncated_solves"] = counters.truncated_solves;
+    json["flown_frames"] = counters.flown_frames;
+    json["near_frames"] = counters.near_frames;
+    json["asleep_frames"] = counters.asleep_frames;
     json["nonfinite_resets"] = counters.nonfinite_resets;
     json["lcp_residual_max_m"] = counters.worst_residual_m;
     json["worst_penetration_m"] = counters.worst_penetration_m;

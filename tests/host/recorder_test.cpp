@@ -99,7 +99,7 @@ TEST(Recorder, SnapshotsShowTheStringOverItsFirstPeriod) {
     const Compiled c = compiled();
     const std::uint64_t last_row = 800;
     Recorder recorder(c.scene, c.model, {}, last_row);
-    RowRenderer renderer(c.model, last_row, Metering::Off, true,
+    RowRenderer renderer(c.model, last_row, Metering::Off, skip_all, true,
                          [&](std::uint64_t row, const SceneState& state) { recorder.observe(row, state); });
     while (!renderer.finished()) renderer.next();
     const StringRecording& string = recorder.recording().strings.at(0);

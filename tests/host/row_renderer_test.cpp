@@ -34,7 +34,7 @@ std::vector<std::vector<double>> all_rows(RowRenderer& renderer) {
 
 TEST(RowRenderer, RowsAreThoseOfTheEngineFrameByFrame) {
     const SceneModel model = model_of(test::valid_scene);
-    RowRenderer renderer(model, last_row, Metering::Frame, false);
+    RowRenderer renderer(model, last_row, Metering::Frame, skip_all, false);
     const auto rows = all_rows(renderer);
 
     SceneState state = make_state(model, Metering::Frame);
@@ -49,9 +49,9 @@ TEST(RowRenderer, RowsAreThoseOfTheEngineFrameByFrame) {
 
 TEST(RowRenderer, ContactsAndObserversDoNotChangeTheRows) {
     const SceneModel model = model_of(test::valid_scene);
-    RowRenderer plain(model, last_row, Metering::Frame, false);
+    RowRenderer plain(model, last_row, Metering::Frame, skip_all, false);
     std::uint64_t observed = 0;
-    RowRenderer watched(model, last_row, Metering::Frame, true,
+    RowRenderer watched(model, last_row, Metering::Frame, skip_all, true,
                         [&](std::uint64_t row, const SceneState& state) {
                             EXPECT_EQ(row, observed++);
                             EXPECT_EQ(state.frame, row);
@@ -62,7 +62,7 @@ TEST(RowRenderer, ContactsAndObserversDoNotChangeTheRows) {
 
 TEST(RowRenderer, TheStateStopsAtTheLastRow) {
     const SceneModel model = model_of(test::valid_scene);
-    RowRenderer renderer(model, last_row, Metering::Frame, false);
+    RowRenderer renderer(model, last_row, Metering::Frame, skip_all, false);
     all_rows(renderer);
     EXPECT_EQ(renderer.state().frame, last_row);
     EXPECT_EQ(renderer.state().strings[0].counters.steps, last_row * 10);
@@ -74,7 +74,7 @@ TEST(RowRenderer, DroppedContactsAreNotANumber) {
         model_of(test::replaced(test::valid_scene, "\"position_m\": 0.5, \"height_m\": 0.004",
                                 "\"position_m\": 0, \"height_m\": 0.004"));
     ASSERT_EQ(model.strings[0].contact_count, 1U);
-    RowRenderer renderer(model, 0, Metering::Off, true);
+    RowRenderer renderer(model, 0, Metering::Off, skip_all, true);
     const RowBlock& block = renderer.next();
     EXPECT_EQ(block.count, 1U);
     EXPECT_TRUE(std::isnan(block.strings[0].gap_m[1]));

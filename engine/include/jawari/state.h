@@ -30,6 +30,9 @@ struct Counters {
     double worst_penetration_m = 0;  ///< largest -gap
 };
 
+/// Sums, and the worst of residuals and penetrations.
+void accumulate(const Counters& more, Counters& sum) noexcept;
+
 /// Energies in joules, accumulated while metering is on (Metering::Step).
 struct EnergyMeter {
     double initial = 0;          ///< H at make_state()
@@ -43,7 +46,7 @@ struct EnergyMeter {
 
 enum class Metering {
     Off,
-    Frame,  ///< H at the end of each frame
+    Frame,  ///< H at the end of each frame in which it may have risen
     Step    ///< the whole balance at each step; about twice the cost
 };
 
