@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
 #include "jawari/step_coefficients.h"
@@ -24,23 +25,28 @@ StringModel one_mode(double frequency_hz, double decay_per_s, double rate_hz, st
     return test::compiled_string(scene);
 }
 
+using Digits50 = boost::multiprecision::cpp_bin_float_50;
+
+/// q+ = A q - e q_before, from the definitions of A and e. Slow modes cancel in it: they need the 50 digits.
+template <class Number>
 struct FreeMotion {
-    long double A, e, h;
-    long double q, v;
+    Number A, e, h;
+    Number q, v;
 
     FreeMotion(const StringModel& model, double q0, double v0) : h(model.step_s), q(q0), v(v0) {
-        const long double omega = model.omega[0], sigma = model.sigma[0];
-        e = std::exp(-2 * sigma * h);
+        const Number omega = model.omega[0], sigma = model.sigma[0];
+        e = exp(Number(-2 * sigma * h));
         if (sigma <= omega) {
-            A = 2 * std::exp(-sigma * h) * std::cos(std::sqrt((omega - sigma) * (omega + sigma)) * h);
+            A = 2 * exp(Number(-sigma * h)) *
+                cos(Number(sqrt(Number((omega - sigma) * (omega + sigma))) * h));
         } else {
-            const long double r = std::sqrt((sigma - omega) * (sigma + omega));
-            A = std::exp(-(sigma - r) * h) + std::exp(-(sigma + r) * h);
+            const Number r = sqrt(Number((sigma - omega) * (sigma + omega)));
+            A = exp(Number(-(sigma - r) * h)) + exp(Number(-(sigma + r) * h));
         }
     }
     void step() {
-        const long double before = q - h * v;
-        const long double next = A * q - e * before;
+        const Number before = q - h * v;
+        const Number next = A * q - e * before;
         v = (next - q) / h;
         q = next;
     }
@@ -69,7 +75,7 @@ TEST(Certificate, SpeedAndExtentBoundFreeMotion) {
         q[0] = mode.q;
         v[0] = mode.v;
         kernels::mode_bounds(n, mode.model, q.data(), v.data(), speed.data(), extent.data(), detour.data());
-        FreeMotion motion(mode.model, q[0], v[0]);
+        FreeMotion<long double> motion(mode.model, q[0], v[0]);
         for (int step = 0; step < 60; ++step) {
             ASSERT_LE(std::abs(motion.v), static_cast<long double>(speed[0]) * (1 + 1e-9L))
                 << "trial " << trial;
@@ -93,7 +99,7 @@ TEST(Certificate, DetourBoundsTheDistanceFromTheChord) {
         q[0] = mode.q;
         v[0] = mode.v;
         kernels::mode_bounds(n, mode.model, q.data(), v.data(), speed.data(), extent.data(), detour.data());
-        FreeMotion motion(mode.model, q[0], v[0]);
+        FreeMotion<long double> motion(mode.model, q[0], v[0]);
         std::vector<long double> path{motion.q};
         for (std::size_t step = 0; step < m; ++step) {
             motion.step();
@@ -132,7 +138,7 @@ TEST(Certificate, AKickRaisesTheSpeedBoundByItsShare) {
 
 TEST(Certificate, FlightIsTheStepsTaken) {
     test::RandomScene random(4);
-    for (int trial = 0; trial < 5000; ++trial) {
+    for (int trial = 0; trial < 1000; ++trial) {
         const RandomMode mode = random_mode(random);
         const StringModel& model = mode.model;
         const std::size_t n = model.stride;
@@ -141,11 +147,11 @@ TEST(Certificate, FlightIsTheStepsTaken) {
         v[0] = mode.v;
         kernels::mode_bounds(n, model, q.data(), v.data(), speed.data(), extent.data(), detour.data());
         ASSERT_TRUE(kernels::fly(n, model.flight, q.data(), v.data(), q_end.data(), v_end.data()));
-        FreeMotion motion(model, q[0], v[0]);
+        FreeMotion<Digits50> motion(model, q[0], v[0]);
         for (std::size_t step = 0; step < model.steps_per_frame; ++step) motion.step();
         // The phase is right to rounding of omega times the frame's length.
         const double phase = model.omega[0] * model.step_s * static_cast<double>(model.steps_per_frame);
-        const double tolerance = 1e-15 * (10 + 50 * phase);
+        const double tolerance = 1e-15 * (10 + 10 * phase);
         EXPECT_NEAR(q_end[0], static_cast<double>(motion.q), tolerance * (extent[0] + std::abs(q[0])))
             << "trial " << trial;
         EXPECT_NEAR(v_end[0], static_cast<double>(motion.v), tolerance * (speed[0] + std::abs(v[0])))
