@@ -79,7 +79,7 @@ TEST(Validate, Rates) {
         {[](auto& s) { s.output_rate_hz = nan_value; }, "output_rate_hz: nan" + range},
         {[](auto& s) { s.output_rate_hz = infinite; }, "output_rate_hz: inf" + range},
         {[](auto& s) { s.output_rate_hz = 0.5; }, "output_rate_hz: 0.5" + range},
-        {[](auto& s) { s.contact_rate_hz = 2e9; }, "contact_rate_hz: 2e+09" + range},
+        {[](auto& s) { s.contact_rate_hz = 2e9; }, "contact_rate_hz: 2000000000" + range},
         {[](auto& s) { s.contact_rate_hz = nan_value; }, "contact_rate_hz: nan" + range},
         {[](auto& s) { s.contact_rate_hz = 2e6; },
          "contact_rate_hz: 2000000 (allowed: an integer multiple of output_rate_hz 48000, the nearest being "
