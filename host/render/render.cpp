@@ -18,6 +18,7 @@
 #include "jawari/instrument_model.h"
 #include "midi/midi_file.h"
 #include "plot/audio_plot.h"
+#include "plot/gnuplot.h"
 #include "preset/read_preset.h"
 #include "render/audio_file.h"
 #include "render/midi_events.h"
@@ -98,6 +99,9 @@ Outcome<Outputs> open_outputs(const RenderOptions& options, std::uint64_t most_f
     if (auto error = open_target(options.stats, outputs.stats)) return *error;
     std::optional<OutputFile> plot_path;  // the plot is drawn by itself, later; only its path is tried
     if (auto error = open_target(options.plot, plot_path)) return *error;
+    if (!options.plot.empty()) {
+        if (auto error = plot::can_plot(options.plot)) return *error;
+    }
     return outputs;
 }
 

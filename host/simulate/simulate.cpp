@@ -12,6 +12,7 @@
 #include "common/progress.h"
 #include "common/text.h"
 #include "jawari/compile.h"
+#include "plot/gnuplot.h"
 #include "plot/scene_plot.h"
 #include "scene/read_scene.h"
 #include "simulate/overrides.h"
@@ -43,6 +44,8 @@ MaybeError open_targets(const SimulateOptions& options, Targets& targets) {
     std::optional<OutputFile>
         probe_of_plot_path;  // the plot is drawn by itself, later; only its path is tried
     if (auto error = open_target(options.plot, probe_of_plot_path)) return error;
+    if (!options.plot.empty())
+        if (auto error = plot::can_plot(options.plot)) return error;
     if (auto error = open_target(options.out, targets.out)) return error;
     return open_target(options.stats, targets.stats);
 }
