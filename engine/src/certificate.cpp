@@ -259,7 +259,9 @@ void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIM
                              bounds.speed.data(), bounds.extent.data(), bounds.detour.data());
     bounds.strongest_speed = std::max(bounds.strongest_speed, largest.speed);
     bounds.strongest_extent = std::max(bounds.strongest_extent, largest.extent);
-    if (!is_excited(state)) {
+    const bool finite =
+        std::isfinite(largest.speed) && std::isfinite(largest.extent);  // else left to the frame's check
+    if (!is_excited(state) && finite) {
         if (state.skipping.sleep && has_faded(state, largest)) {
             fall_asleep(state);
             return;

@@ -136,17 +136,18 @@ TrueState described_state(const StringModel& model, const InitialCondition& init
     return state;
 }
 
-/// Only the free part of the shape has a past in motion; what obstacles hold was at rest before t = 0.
+/// A free string has a past in free motion; one that obstacles hold was at rest against them before t = 0.
 bool set_initial_state(StringModel& model, const InitialCondition& initial) {
     const TrueState state = described_state(model, initial);
     const auto held = held_displacement(model, state.displacement);
     const AlignedVector<double> flat(model.stride, 0.0);
     const auto rest = held_displacement(model, flat);
     if (!held || !rest) return false;
+    const bool is_held = std::any_of(held->begin(), held->end(), [](double q) { return q != 0; });
     model.initial_displacement = state.displacement;
     model.initial_velocity = state.velocity;
     for (std::size_t k = 0; k < model.mode_count; ++k) {
-        if (initial.start == Start::Exact && model.scheme == Scheme::Exact) {
+        if (initial.start == Start::Exact && model.scheme == Scheme::Exact && !is_held) {
             model.initial_velocity[k] = exact_backward_velocity(model.omega[k], model.sigma[k], model.step_s,
                                                                 state.displacement[k], state.velocity[k]);
         }

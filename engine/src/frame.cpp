@@ -1,5 +1,6 @@
 // One output frame: what can be flown is flown, what may touch is stepped.
 #include <algorithm>
+#include <cmath>
 
 #include "certificate.h"
 #include "contact.h"
@@ -81,7 +82,11 @@ void meter_highest(const StringModel& model, StringState& state) {
 }
 
 bool is_finite(const StringState& state) {
-    return kernels::all_finite(state.active_modes, state.displacement.data()) &&
+    const ContactState& contact = state.contact;
+    const bool gaps_are_finite = std::all_of(
+        contact.near.begin(), contact.near.begin() + static_cast<std::ptrdiff_t>(contact.near_count),
+        [&](std::uint32_t c) { return std::isfinite(contact.gap[c]); });
+    return gaps_are_finite && kernels::all_finite(state.active_modes, state.displacement.data()) &&
            kernels::all_finite(state.active_modes, state.velocity.data());
 }
 

@@ -40,7 +40,8 @@ inline double target_gap(ImpactLaw law, const ContactMoment& c) {
         case ImpactLaw::Passive:
             return c.gap <= c.gap_before ? c.gap - c.restitution * (c.gap - c.gap_before) : c.gap_before;
         case ImpactLaw::Signorini:
-            return 0;
+            return std::min(
+                0.0, c.gap_before);  // 0, but a contact left inside by a truncated solve must not be shot out
         case ImpactLaw::PaoliSchatzman:
             return std::min(-c.restitution * c.gap_before, c.gap_before);
     }

@@ -12,6 +12,8 @@ namespace {
 // (coincident contacts).
 constexpr double dependent_pivot = 1e-13;
 constexpr int predictor_sweeps = 2;
+// A solution whose residual is larger than this share of the worst violation is none.
+constexpr double largest_relative_residual = 1e-6;
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Factor = Eigen::Map<Matrix, Eigen::Aligned, Eigen::OuterStride<>>;
@@ -236,21 +238,26 @@ LcpOutcome solve_lcp(const ContactOperator& A, std::span<const double> r,
     const std::size_t bound = 4 * workspace.capacity + 16;
     std::size_t pivots_left = bound;
     for (std::size_t entering = most_violated(p); entering != none; entering = most_violated(p)) {
-        if (!bring_in(p, entering, pivots_left)) {
+        if (pivots_left == 0 || !bring_in(p, entering, pivots_left)) {
             outcome.finished = false;
             break;
         }
+        pivots_left -= std::min<std::size_t>(pivots_left, 1);
         solve_and_thin(p);  // removes the rounding that the pivots have gathered
         update_residual(p);
     }
+    outcome.pivots = bound - pivots_left;
+    outcome.residual = natural_residual(p);
+    // Contradictory contacts whose pivot is just not recognised as dependent end with enormous impulses and a
+    // poor residual.
+    if (!(outcome.residual <= -largest_relative_residual * lowest)) outcome.finished = false;
     if (!outcome.finished) {
         for (const auto c : candidates) {
             if (!is_active(workspace, c)) lambda[c] = 0;
         }
         update_residual(p);
+        outcome.residual = natural_residual(p);
     }
-    outcome.pivots = bound - pivots_left;
-    outcome.residual = natural_residual(p);
     return outcome;
 }
 

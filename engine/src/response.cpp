@@ -24,7 +24,8 @@ std::size_t grid_intervals(const StringModel& model) {
         if (model.contact_side[c] != Side::Below) return 0;
         if (c > 0) spacing = std::min(spacing, model.contact_position[c] - model.contact_position[c - 1]);
     }
-    if (!(spacing > 0) || model.length_m / spacing > static_cast<double>(largest_grid_period / 2)) return 0;
+    constexpr std::size_t most_intervals = largest_grid_period / 2;
+    if (!(spacing > 0) || model.length_m / spacing > static_cast<double>(most_intervals)) return 0;
     const double intervals = std::round(model.length_m / spacing);
     for (const double x : model.contact_position) {
         const double node = x / model.length_m * intervals;

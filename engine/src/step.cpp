@@ -16,7 +16,7 @@ void remember(const StringModel& model, StringState& state) {
     if (state.metering == Metering::Step) {
         std::copy(state.displacement.begin(), state.displacement.end(), state.displacement_before.begin());
     }
-    if (model.theta < 1) note_approach(model, state);
+    if (model.scheme == Scheme::Theta) note_approach(model, state);
 }
 
 /// v_free = carry v + change v + restoring q + h (w/mu) phi(x) F

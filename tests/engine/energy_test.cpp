@@ -150,8 +150,9 @@ TEST_P(TruncatedLaw, TruncatedSolvesStayPassiveAndAreCounted) {
     EXPECT_GT(truncated, 500U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, TruncatedLaw, testing::Values(ImpactLaw::Passive, ImpactLaw::PaoliSchatzman));
-INSTANTIATE_TEST_SUITE_P(DISABLED_Laws, TruncatedLaw, testing::Values(ImpactLaw::Signorini));
+INSTANTIATE_TEST_SUITE_P(Laws, TruncatedLaw,
+                         testing::Values(ImpactLaw::Passive, ImpactLaw::PaoliSchatzman,
+                                         ImpactLaw::Signorini));
 
 TEST(Energy, MetersAddUpToTheChangeOfEnergy) {
     test::RandomScene random(5);

@@ -53,7 +53,9 @@ TEST(ImpactLaw, PassiveIsNewtonOnApproachAndNeverAboveTheGapBefore) {
 
 TEST(ImpactLaw, SignoriniKeepsTheGapNotNegativeWhateverTheRestitution) {
     EXPECT_EQ(target_gap(ImpactLaw::Signorini, moment(1, 3, 0)), 0);
-    EXPECT_EQ(target_gap(ImpactLaw::Signorini, moment(-1, -3, 1)), 0);
+    EXPECT_EQ(target_gap(ImpactLaw::Signorini, moment(-1, 2, 1)), 0);
+    // Left inside by a truncated solve: no further in than it was, never shot out.
+    EXPECT_EQ(target_gap(ImpactLaw::Signorini, moment(-1, -3, 1)), -3);
 }
 
 TEST(ImpactLaw, PaoliSchatzmanReflectsThePositionOneStepEarlier) {
@@ -69,6 +71,7 @@ TEST(ImpactLaw, EveryPassiveLawsTargetIsAtMostTheGapBefore) {
         for (const double before : {-4.0, -1.0, -0.5, 0.0, 1.0, 5.0}) {
             for (const double e : {0.0, 0.3, 1.0}) {
                 EXPECT_LE(target_gap(ImpactLaw::Passive, moment(gap, before, e)), before);
+                EXPECT_LE(target_gap(ImpactLaw::Signorini, moment(gap, before, e)), before);
                 EXPECT_LE(target_gap(ImpactLaw::PaoliSchatzman, moment(gap, before, e)), before);
             }
         }

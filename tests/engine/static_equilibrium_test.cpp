@@ -165,8 +165,9 @@ TEST_P(HeldPluck, IsLiftedClearOfObstaclesAndGainsNothing) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, HeldPluck, testing::Values(ImpactLaw::Passive, ImpactLaw::PaoliSchatzman));
-INSTANTIATE_TEST_SUITE_P(DISABLED_Laws, HeldPluck, testing::Values(ImpactLaw::Signorini));
+INSTANTIATE_TEST_SUITE_P(Laws, HeldPluck,
+                         testing::Values(ImpactLaw::Passive, ImpactLaw::PaoliSchatzman,
+                                         ImpactLaw::Signorini));
 
 TEST(StaticEquilibrium, ObstaclesThatContradictOneAnotherAreRefused) {
     SceneDescription scene = flexible_string(50, 48000);
