@@ -132,8 +132,8 @@ std::string snapshots_panel(const StringRecording& string, const Scale& time) {
     std::vector<std::string> curves;
     add_obstacles(string, Side::Below, height, axis, data, curves);
     add_obstacles(string, Side::Above, height, axis, data, curves);
-    curves.push_back("0 with lines lw 1 dt 3 lc rgb '#909090' notitle");
-    if (!times.empty) curves.push_back("$shapes using 1:2:3 with lines lw 1.4 lc palette notitle");
+    curves.emplace_back("0 with lines lw 1 dt 3 lc rgb '#909090' notitle");
+    if (!times.empty) curves.emplace_back("$shapes using 1:2:3 with lines lw 1.4 lc palette notitle");
 
     Range along{0, string.length_m, false};
     std::string commands = data + "set title " + quote(string.name + ": string and obstacles") + "\n" +
@@ -259,7 +259,7 @@ std::string contactogram_panel(const SceneRecording& recording, const StringReco
     }
     if (events.empty()) {
         title += string.obstacles.empty() ? "this string has no obstacle" : "the string struck nothing";
-        curves.push_back("NaN notitle");
+        curves.emplace_back("NaN notitle");
     } else {
         title += "impulses from " + std::to_string(string.obstacles.size()) +
                  (string.obstacles.size() == 1 ? " contact" : " contacts");
@@ -271,7 +271,7 @@ std::string contactogram_panel(const SceneRecording& recording, const StringReco
         }
         commands += "set cblabel " + quote("impulse (" + impulse.unit + ")") + "\n" +
                     set_range("cb", {0, largest * impulse.factor, false});
-        curves.push_back("$events using 1:2:4:3 with points pt 7 ps variable lc palette notitle");
+        curves.emplace_back("$events using 1:2:4:3 with points pt 7 ps variable lc palette notitle");
     }
     return commands + "set title " + quote(title) + "\n" + joined(curves);
 }
