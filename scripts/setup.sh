@@ -24,7 +24,7 @@ packages=(
     # -- tests and benchmarks
     libgtest-dev      # GoogleTest
     libbenchmark-dev  # Google Benchmark
-    libboost-dev      # Boost.Multiprecision: 60-digit references
+    libboost-dev      # Boost.Multiprecision: 100-digit references
     midicsv           # independent reading of MIDI files
     python3           # test scripts
     python3-numpy     # reference simulations, pitch measurement
