@@ -88,6 +88,7 @@ double energy(const StringModel& model, const StringState& state) JAWARI_REALTIM
 
 void meter_step(const StringModel& model, StringState& state) JAWARI_REALTIME {
     EnergyMeter& meter = state.energy;
+    if (!std::isfinite(energy(model, state))) return;  // the frame's check resets the string, the meters stay
     const double before = energy_of(model, state.displacement_before, state.velocity_before);
     const double now = energy_of(model, state.displacement, state.velocity);
     const double dissipated = dissipated_in_step(model, state);

@@ -11,24 +11,13 @@
 namespace jawari {
 namespace {
 
-kernels::ModeRun run_of(const StringModel& model) {
-    kernels::ModeRun run;
-    run.modes = model.stride;
-    run.steps = model.steps_per_frame;
-    run.step_s = model.step_s;
-    run.carry = model.carry.data();
-    run.change = model.change.data();
-    run.restoring = model.restoring.data();
-    return run;
-}
-
 /// rates_free <- S v of free flight at each step, for the near contacts from `first` on.
 void run_free(const StringModel& model, StringState& state, std::size_t first) {
     NearState& near = state.near_frame;
     const ContactState& contact = state.contact;
     std::copy(state.displacement.begin(), state.displacement.end(), near.displacement.begin());
     std::copy(state.velocity.begin(), state.velocity.end(), near.velocity.begin());
-    kernels::ModeRun run = run_of(model);
+    kernels::ModeRun run = kernels::frame_run(model);
     run.modes = state.active_modes;
     for (std::size_t i = first; i < contact.near_count; ++i) {
         near.rows[i] = model.contact_rows.data() + contact.near[i] * model.stride;
@@ -160,7 +149,7 @@ void run_impulses(const StringModel& model, StringState& state) {
     state.active_modes = model.stride;
     std::fill(near.displacement.begin(), near.displacement.end(), 0.0);
     std::fill(near.velocity.begin(), near.velocity.end(), 0.0);
-    kernels::ModeRun run = run_of(model);
+    kernels::ModeRun run = kernels::frame_run(model);
     for (std::size_t i = 0; i < near.struck_count; ++i) {
         near.rows[i] = model.contact_rows.data() + near.struck[i] * model.stride;
     }

@@ -97,6 +97,17 @@ namespace jawari::kernels {
 
 HWY_EXPORT(run_modes);
 
+ModeRun frame_run(const StringModel& model) noexcept {
+    ModeRun run;
+    run.modes = model.stride;
+    run.steps = model.steps_per_frame;
+    run.step_s = model.step_s;
+    run.carry = model.carry.data();
+    run.change = model.change.data();
+    run.restoring = model.restoring.data();
+    return run;
+}
+
 void run_modes(const ModeRun& run) noexcept {
     HWY_DYNAMIC_DISPATCH(run_modes)(run);
 }

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include "jawari/model.h"
+
 namespace jawari::kernels {
 
 struct ModeRun {
@@ -32,6 +34,9 @@ struct ModeRun {
 
 /// Steps taken with the state in registers before it goes back to memory.
 inline constexpr std::size_t steps_per_run = 32;
+
+/// The coefficients of a model over one frame, all modes, without drivers and probes.
+ModeRun frame_run(const StringModel& model) noexcept;
 
 /// Any number of steps.
 void run_modes(const ModeRun& run) noexcept;

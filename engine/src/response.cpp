@@ -64,13 +64,7 @@ void set_dense_compliance(StringModel& model) {
 }
 
 kernels::ModeRun run_of_unit_impulse(const StringModel& model, const AlignedVector<double>& impulse) {
-    kernels::ModeRun run;
-    run.modes = model.stride;
-    run.steps = model.steps_per_frame;
-    run.step_s = model.step_s;
-    run.carry = model.carry.data();
-    run.change = model.change.data();
-    run.restoring = model.restoring.data();
+    kernels::ModeRun run = kernels::frame_run(model);
     run.drivers = 1;
     run.impulses = impulse.data();
     run.impulse_stride = model.response_stride;

@@ -28,7 +28,7 @@ std::string described(const Range& range) {
         return std::string("a finite number ") + (range.low_included ? ">= " : "> ") + printed(range.low);
     }
     const std::string span = printed(range.low) + " to " + printed(range.high);
-    return range.low_included && range.high_included ? span : "between " + span + ", ends excluded";
+    return range.low_included && range.high_included ? span : span + ", ends excluded";
 }
 
 Check check(const std::string& place, double value, const Range& range) {
@@ -208,7 +208,17 @@ Check check_rates(const SceneDescription& scene) {
     return {};
 }
 
-std::string name_of(ImpactLaw law) {
+Check check_scheme(const SceneDescription& scene) {
+    if (scene.scheme == Scheme::Exact) return {};
+    if (auto failure = check("theta", scene.theta, {0.5, 1})) return failure;
+    if (scene.law != ImpactLaw::Newton)
+        return Failure{"law", name_of(scene.law), "newton, the only law of the theta scheme"};
+    return {};
+}
+
+}  // namespace
+
+const char* name_of(ImpactLaw law) {
     switch (law) {
         case ImpactLaw::Newton:
             return "newton";
@@ -221,16 +231,6 @@ std::string name_of(ImpactLaw law) {
     }
     return "an unknown law";
 }
-
-Check check_scheme(const SceneDescription& scene) {
-    if (scene.scheme == Scheme::Exact) return {};
-    if (auto failure = check("theta", scene.theta, {0.5, 1})) return failure;
-    if (scene.law != ImpactLaw::Newton)
-        return Failure{"law", name_of(scene.law), "newton, the only law of the theta scheme"};
-    return {};
-}
-
-}  // namespace
 
 std::string printed(double value) {
     char text[64];

@@ -7,17 +7,7 @@ std::string word(Scheme scheme) {
 }
 
 std::string word(ImpactLaw law) {
-    switch (law) {
-        case ImpactLaw::Newton:
-            return "newton";
-        case ImpactLaw::Passive:
-            return "passive";
-        case ImpactLaw::Signorini:
-            return "signorini";
-        case ImpactLaw::PaoliSchatzman:
-            return "paoli-schatzman";
-    }
-    return {};
+    return name_of(law);
 }
 
 std::string word(Start start) {

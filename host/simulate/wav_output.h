@@ -3,13 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
-#include "common/output_file.h"
+#include "common/sound_file.h"
 #include "simulate/row_renderer.h"
-
-struct sf_private_tag;
 
 namespace jawari::host {
 
@@ -20,20 +17,13 @@ class WavOutput {
                                      double output_rate_hz);
 
     MaybeError write(const RowBlock& block);
-    MaybeError commit();
+    MaybeError commit() { return sound_.commit(); }
 
   private:
-    struct Close {
-        void operator()(sf_private_tag* sound) const;
-    };
-    WavOutput(OutputFile file, std::unique_ptr<sf_private_tag, Close> sound)
-        : file_(std::move(file)), sound_(std::move(sound)) {}
-    [[nodiscard]] MaybeError failure() const;
+    explicit WavOutput(SoundFile sound) : sound_(std::move(sound)) {}
 
-    OutputFile file_;
-    std::unique_ptr<sf_private_tag, Close> sound_;
+    SoundFile sound_;
     std::vector<double> interleaved_;
-    std::uint64_t bytes_ = 0;
 };
 
 }  // namespace jawari::host

@@ -131,8 +131,11 @@ struct StringDescription {
 
 enum class Scheme { Exact, Theta };
 
-/// DESIGN of the laws: docs/model.md, section "Impact laws".
+/// docs/model.md, section "Impact laws".
 enum class ImpactLaw { Newton, Passive, Signorini, PaoliSchatzman };
+
+/// As scene files spell it: newton, passive, signorini, paoli-schatzman.
+const char* name_of(ImpactLaw law);
 
 struct SceneDescription {
     double output_rate_hz = 48000;     ///< > 0

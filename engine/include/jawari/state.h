@@ -15,7 +15,7 @@ namespace jawari {
 /// What happened since make_state().
 struct Counters {
     std::uint64_t steps = 0;       ///< contact steps simulated
-    std::uint64_t candidates = 0;  ///< contacts that entered a complementarity problem
+    std::uint64_t candidates = 0;  ///< evaluated contacts that were candidates of their step's law
     std::uint64_t impulses = 0;    ///< impulses > 0
     std::uint64_t solves = 0;      ///< complementarity problems with a violated candidate
     std::uint64_t truncated_solves =
