@@ -93,7 +93,7 @@ TEST(ReadPreset, EveryFaultIsNamedWithItsPlace) {
         {"\"length_m\": 0.86", "\"length_m\": -0.86", "strings[0].length_m: -0.86"},
         {"\"length_m\": 0.86", "\"length\": 0.86", "strings[0].length: "},
         {"-0.002]", "0.002]", "frets.height_m[1]: 0.002"},
-        {"-0.002]", "-0.0005]", "frets.height_m[1]: -5e-04"},
+        {"-0.002]", "-0.0005]", "frets.height_m[1]: -0.0005"},
         {"-0.002]", "null]", "frets.height_m[1]: "},
         {"\"mode_limit_hz\": 9000", "\"mode_limit_hz\": 1e9", "mode_limit_hz: "},
         {"\"full_height_m\": 0.002", "\"full_height_m\": 2", "pluck.full_height_m: 2"},
