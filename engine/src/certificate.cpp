@@ -15,7 +15,7 @@ namespace {
 /// Bounds are widened by this share, far above the rounding of the sums that make them.
 constexpr double safety = 1 + 1e-9;
 /// In free flight bounds only become tighter when computed anew; this often is enough.
-constexpr std::uint64_t refresh_period = 16;
+constexpr std::uint64_t refresh_period = 32;
 constexpr std::uint64_t unknown_frame = std::numeric_limits<std::uint64_t>::max();
 
 double frame_length(const StringModel& model) {
@@ -70,6 +70,8 @@ void fall_asleep(StringState& state) {
                         &state.displacement_flown, &state.velocity_flown}) {
         std::fill(array->begin(), array->end(), 0.0);
     }
+    std::fill(state.contact.frame_impulse.begin(), state.contact.frame_impulse.end(), 0.0);
+    state.active_modes = 0;
     state.asleep = true;
 }
 

@@ -4,6 +4,7 @@
 
 #include "certificate.h"
 #include "contact.h"
+#include "frame.h"
 #include "jawari/render.h"
 #include "kernels.h"
 #include "metering.h"
@@ -116,17 +117,21 @@ bool advance_awake(const StringModel& model, StringState& state) {
 }  // namespace
 
 void advance_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    if (sleeps_on(state)) {
+        pass_asleep(model, state, 1);
+        return;
+    }
+    if (state.asleep) notice_change(model, state);
     std::fill(state.contact.frame_impulse.begin(), state.contact.frame_impulse.end(), 0.0);
-    if (state.asleep && (is_excited(state) || state.contact.moving_count > 0)) notice_change(model, state);
-    if (!state.asleep && !advance_awake(model, state)) {
+    if (!advance_awake(model, state)) {
         put_to_rest(model, state);
         state.counters.nonfinite_resets += 1;
     }
-    if (state.asleep) {
-        state.counters.asleep_frames += 1;
-        state.counters.steps += model.steps_per_frame;
+    if (state.asleep) {  // just now
+        pass_asleep(model, state, 1);
+    } else {
+        state.frame += 1;
     }
-    state.frame += 1;
 }
 
 }  // namespace jawari

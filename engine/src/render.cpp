@@ -2,10 +2,30 @@
 
 #include <algorithm>
 
+#include "frame.h"
 #include "jawari/energy.h"
 #include "kernels.h"
 
 namespace jawari {
+namespace {
+
+/// Strings do not act on one another, so each renders the whole block by itself; one that sleeps is silence.
+void render_string(const StringModel& model, StringState& state, std::span<double* const> outputs,
+                   std::size_t frames, double frame_s) JAWARI_REALTIME {
+    if (sleeps_on(state)) {
+        for (double* output : outputs) std::fill_n(output, frames, 0.0);
+        pass_asleep(model, state, frames);
+        return;
+    }
+    for (std::size_t n = 0; n < frames; ++n) {
+        for (std::size_t p = 0; p < outputs.size(); ++p)
+            outputs[p][n] = probe_value(model, state, p, frame_s);
+        advance_frame(model, state);
+    }
+}
+
+}  // namespace
+
 double probe_value(const StringModel& model, const StringState& state, std::size_t probe,
                    double frame_s) JAWARI_REALTIME {
     const double* row = model.probe_rows.data() + probe * model.stride;
@@ -33,18 +53,15 @@ double probe_value(const StringModel& model, const StringState& state, std::size
 
 void render(const SceneModel& model, SceneState& state, std::span<double* const> outputs,
             std::size_t frames) JAWARI_REALTIME {
-    const double frame_s = 1 / model.output_rate_hz;
-    for (std::size_t n = 0; n < frames; ++n) {
-        std::size_t output = 0;
-        for (std::size_t s = 0; s < model.strings.size(); ++s) {
-            const StringModel& string = model.strings[s];
-            for (std::size_t p = 0; p < string.probes.size(); ++p) {
-                outputs[output++][n] = probe_value(string, state.strings[s], p, frame_s);
-            }
-            advance_frame(string, state.strings[s]);
-        }
-        state.frame += 1;
+    std::size_t first_output = 0;
+    for (std::size_t s = 0; s < model.strings.size(); ++s) {
+        const StringModel& string = model.strings[s];
+        const std::size_t probes = string.probes.size();
+        render_string(string, state.strings[s], outputs.subspan(first_output, probes), frames,
+                      1 / model.output_rate_hz);
+        first_output += probes;
     }
+    state.frame += frames;
 }
 
 void move_contact(const StringModel& model, StringState& state, std::size_t contact, double height_m,

@@ -1,0 +1,141 @@
+// Each kernel of the engine on the 862 modes of the bass. `fma_share` is the rate of multiply-adds (a lone
+// multiplication or addition counts as one, since it takes the same slot) over that of `fma_peak`, measured
+// in the same run.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "fma_peak.h"
+#include "jawari/jawari.h"
+#include "kernels.h"
+#include "near_kernels.h"
+#include "scene/read_scene.h"
+#include "skipping_kernels.h"
+
+namespace jawari::benchmarks {
+namespace {
+
+const StringModel& bass() {
+    static const SceneModel model = [] {
+        auto scene = host::load_scene("lab/bass");
+        SceneDescription description = scene.value().description;
+        description.output_rate_hz = 48000;
+        description.contact_rate_hz = 48000 * 64;
+        description.law = ImpactLaw::Signorini;
+        return compile(description).value();
+    }();
+    return model.strings[0];
+}
+
+/// Multiply-adds per second, the best of several trials.
+double peak_rate() {
+    static const double peak = [] {
+        double best = 0;
+        for (int trial = 0; trial < 20; ++trial) {
+            double sink = 0;
+            const auto start = std::chrono::steady_clock::now();
+            const std::size_t done = multiply_adds(1000000, sink);
+            benchmark::DoNotOptimize(sink);
+            const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+            best = std::max(best, static_cast<double>(done) / time.count());
+        }
+        return best;
+    }();
+    return peak;
+}
+
+/// `operations`: multiply-adds of one iteration.
+void report(benchmark::State& state, double mode_steps, double operations) {
+    const auto iterations = static_cast<double>(state.iterations());
+    state.counters["mode_steps"] = benchmark::Counter(mode_steps * iterations, benchmark::Counter::kIsRate);
+    state.counters["fma_share"] =
+        benchmark::Counter(operations * iterations / peak_rate(), benchmark::Counter::kIsRate);
+}
+
+void fma_peak(benchmark::State& state) {
+    double sink = 0;
+    std::size_t done = 0;
+    for (auto _ : state) {
+        done = multiply_adds(10000, sink);
+        benchmark::DoNotOptimize(sink);
+    }
+    report(state, 0, static_cast<double>(done));
+}
+
+/// Free motion of all modes through 64 steps with state.range(0) gap rates.
+void run_modes(benchmark::State& state) {
+    const StringModel& model = bass();
+    const auto probes = static_cast<std::size_t>(state.range(0));
+    std::vector<const double*> rows;
+    for (std::size_t p = 0; p < probes; ++p) rows.push_back(model.contact_rows.data() + p * model.stride);
+    AlignedVector<double> rates(std::max<std::size_t>(probes, 1) * 64);
+    AlignedVector<double> lanes(std::max<std::size_t>(probes, 1) * kernels::steps_per_run * lane_padding);
+    AlignedVector<double> q = model.initial_displacement, v = model.initial_velocity;
+    kernels::ModeRun run = kernels::frame_run(model);
+    run.probes = probes;
+    run.probe_rows = rows.data();
+    run.rates = rates.data();
+    run.rate_stride = 64;
+    run.lanes = lanes.data();
+    run.q = q.data();
+    run.v = v.data();
+    for (auto _ : state) {
+        std::copy(model.initial_displacement.begin(), model.initial_displacement.end(), q.begin());
+        std::copy(model.initial_velocity.begin(), model.initial_velocity.end(), v.begin());
+        kernels::run_modes(run);
+        benchmark::DoNotOptimize(rates.data());
+        benchmark::ClobberMemory();
+    }
+    const double mode_steps = static_cast<double>(model.stride) * 64;
+    report(state, mode_steps, mode_steps * static_cast<double>(3 + probes));
+}
+
+/// One frame of free flight.
+void fly(benchmark::State& state) {
+    const StringModel& model = bass();
+    AlignedVector<double> q(model.stride), v(model.stride);
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(kernels::fly(model.stride, model.flight, model.initial_displacement.data(),
+                                              model.initial_velocity.data(), q.data(), v.data()));
+        benchmark::ClobberMemory();
+    }
+    report(state, static_cast<double>(model.stride), 8 * static_cast<double>(model.stride));
+}
+
+/// The gaps of all 20 frets.
+void row_products(benchmark::State& state) {
+    const StringModel& model = bass();
+    std::vector<double> out(model.contact_count);
+    for (auto _ : state) {
+        kernels::row_products(model.contact_count, model.stride, model.stride, model.contact_rows.data(),
+                              model.initial_displacement.data(), out.data());
+        benchmark::DoNotOptimize(out.data());
+        benchmark::ClobberMemory();
+    }
+    report(state, static_cast<double>(model.stride), static_cast<double>(model.contact_count * model.stride));
+}
+
+/// All bounds of the certificate, per mode.
+void mode_bounds(benchmark::State& state) {
+    const StringModel& model = bass();
+    AlignedVector<double> speed(model.stride), extent(model.stride), detour(model.stride);
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(kernels::mode_bounds(model.stride, model, model.initial_displacement.data(),
+                                                      model.initial_velocity.data(), speed.data(),
+                                                      extent.data(), detour.data()));
+        benchmark::ClobberMemory();
+    }
+    report(state, static_cast<double>(model.stride), 23 * static_cast<double>(model.stride));
+}
+
+BENCHMARK(fma_peak);
+BENCHMARK(run_modes)->Arg(0)->Arg(1)->Arg(4)->Arg(20);
+BENCHMARK(fly);
+BENCHMARK(row_products);
+BENCHMARK(mode_bounds);
+
+}  // namespace
+}  // namespace jawari::benchmarks
+
+BENCHMARK_MAIN();
