@@ -11,8 +11,6 @@
 
 #include "common/output_file.h"
 
-extern char** environ;
-
 namespace jawari::host::plot {
 namespace {
 
@@ -82,9 +80,8 @@ Run run_gnuplot(int input, int output, int error, const char* option) {
     posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, error, STDERR_FILENO);
     // --default-settings: the picture does not depend on the user's start-up files.
-    const std::string name = program, settings = "--default-settings", last = option;
-    char* arguments[] = {const_cast<char*>(name.c_str()), const_cast<char*>(settings.c_str()),
-                         last.empty() ? nullptr : const_cast<char*>(last.c_str()), nullptr};
+    std::string name = program, settings = "--default-settings", last = option;
+    char* arguments[] = {name.data(), settings.data(), last.empty() ? nullptr : last.data(), nullptr};
     Run run;
     pid_t child = 0;
     run.spawn_error = posix_spawnp(&child, program, &actions, nullptr, arguments, environ);
