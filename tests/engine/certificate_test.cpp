@@ -159,5 +159,54 @@ TEST(Certificate, FlightIsTheStepsTaken) {
     }
 }
 
+/// What the odometers and clearances claim of every gap, against the gaps themselves, computed from the rows
+/// at every frame.
+void expect_true_claims(const StringModel& model, std::size_t frames, const std::string& what) {
+    StringState state = make_string_state(model);
+    const CertificateState& bounds = state.certificate;
+    const std::vector<std::size_t>& begin = model.certificate.group_begin;
+    for (std::size_t n = 0; n < frames; ++n) {
+        advance_frame(model, state);
+        for (std::size_t g = 0; g + 1 < begin.size(); ++g) {
+            for (std::size_t c = begin[g]; c < begin[g + 1]; ++c) {
+                long double gap = -state.contact.height[c];
+                for (std::size_t k = 0; k < model.mode_count; ++k) {
+                    gap += static_cast<long double>(model.contact_rows[c * model.stride + k]) *
+                           state.displacement[k];
+                }
+                const double claim = bounds.open_until[c] - bounds.group_odometer[g];
+                ASSERT_LE(claim, static_cast<double>(gap) + 1e-13)
+                    << what << ", frame " << n << ", contact " << c;
+                if (bounds.outdated) continue;  // impulses may have taken the string out of the clearance
+                ASSERT_LE(bounds.group_clearance[g], static_cast<double>(gap) + 1e-13)
+                    << what << ", frame " << n;
+            }
+        }
+    }
+}
+
+TEST(Certificate, OdometersNeverClaimMoreThanTheGap) {
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        for (const ImpactLaw law : {ImpactLaw::Newton, ImpactLaw::Signorini}) {
+            test::RandomScene random(seed);
+            SceneDescription scene = random.scene(law, 48000, 2e6);
+            const StringModel model = test::compiled_string(scene);
+            expect_true_claims(model, 300, "seed " + std::to_string(seed));
+        }
+    }
+}
+
+TEST(Certificate, OdometersOfSharedGroupsNeverClaimMoreThanTheGap) {
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        test::RandomScene random(seed);
+        SceneDescription scene = random.scene(ImpactLaw::Signorini, 48000, 1e6);
+        StringDescription& string = scene.strings[0];
+        const double height = std::get<Pluck>(string.initial.shape).height_m;
+        const std::vector<ProfilePoint> profile{{0, -0.05 * height}, {0.7 * string.length_m, -0.8 * height}};
+        string.contacts = sampled_neck(string.length_m, 150, profile, 0);
+        expect_true_claims(test::compiled_string(scene), 150, "seed " + std::to_string(seed));
+    }
+}
+
 }  // namespace
 }  // namespace jawari
