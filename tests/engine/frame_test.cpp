@@ -81,7 +81,7 @@ std::size_t frames_of_steps(const SceneDescription& scene, double steps) {
 class SkippingOfLaw : public testing::TestWithParam<ImpactLaw> {};
 
 TEST_P(SkippingOfLaw, AgreesWithUniformSteppingOnRandomScenes) {
-    for (std::uint64_t seed = 0; seed < 250; ++seed) {
+    for (std::uint64_t seed = 0; seed < 250 / test::share_of_scenes; ++seed) {
         test::RandomScene random(seed);
         SceneDescription scene = random.scene(GetParam(), 48000, 4e6);
         expect_same(scene, skip_all, frames_of_steps(scene, 12000), "seed " + std::to_string(seed));
@@ -96,14 +96,14 @@ TEST_P(SkippingOfLaw, AgreesOnThePublishedBassAtAnyRestitution) {
             scene.law = GetParam();
             scene.strings.push_back(test::bass_string(862));
             for (auto& contact : scene.strings[0].contacts) contact.restitution = restitution;
-            expect_same(scene, skip_all, 480,
+            expect_same(scene, skip_all, 480 / test::share_of_scenes,
                         "e " + std::to_string(restitution) + " at " + std::to_string(rate));
         }
     }
 }
 
 TEST_P(SkippingOfLaw, AgreesOnNecksWhoseContactsShareBounds) {
-    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    for (std::uint64_t seed = 0; seed < 1 + 11 / test::share_of_scenes; ++seed) {
         test::RandomScene random(seed);
         SceneDescription scene = random.scene(GetParam(), 48000, 1e6);
         StringDescription& string = scene.strings[0];
@@ -115,7 +115,7 @@ TEST_P(SkippingOfLaw, AgreesOnNecksWhoseContactsShareBounds) {
 }
 
 TEST_P(SkippingOfLaw, AgreesWithEachSkipAlone) {
-    for (std::uint64_t seed = 500; seed < 520; ++seed) {
+    for (std::uint64_t seed = 500; seed < 501 + 19 / test::share_of_scenes; ++seed) {
         test::RandomScene random(seed);
         const SceneDescription scene = random.scene(GetParam(), 48000, 2e6);
         for (const auto& [name, skipping] :
