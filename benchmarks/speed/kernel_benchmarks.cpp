@@ -11,6 +11,7 @@
 #include "kernels.h"
 #include "near_kernels.h"
 #include "scene/read_scene.h"
+#include "flight_kernels.h"
 #include "skipping_kernels.h"
 
 namespace jawari::benchmarks {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bounds.h"
 #include "certificate.h"
 #include "contact.h"
 #include "kernels.h"

@@ -1,6 +1,7 @@
 #include "jawari/render.h"
 
 #include <algorithm>
+#include <array>
 
 #include "frame.h"
 #include "jawari/energy.h"
@@ -9,15 +10,42 @@
 namespace jawari {
 namespace {
 
-/// Strings do not act on one another, so each renders the whole block by itself; one that sleeps is silence.
+void read_all(const StringModel& model, const StringState& state, std::span<const Reading> readings,
+              std::size_t n) JAWARI_REALTIME {
+    for (const Reading& reading : readings) {
+        const AlignedVector<double>& x = reading.of_velocity ? state.velocity : state.displacement;
+        kernels::row_products(1, state.active_modes, model.stride, reading.row, x.data(), reading.out + n);
+    }
+}
+
+/// Readings of a string's displacement and velocity probes; returns how many there are.
+std::size_t linear_probes(const StringModel& model, std::span<double* const> outputs,
+                          std::span<Reading> readings) JAWARI_REALTIME {
+    std::size_t count = 0;
+    for (std::size_t p = 0; p < outputs.size(); ++p) {
+        const Quantity quantity = model.probes[p].quantity;
+        if (quantity != Quantity::Displacement && quantity != Quantity::Velocity) continue;
+        readings[count++] = {model.probe_rows.data() + p * model.stride, quantity == Quantity::Velocity,
+                             outputs[p]};
+    }
+    return count;
+}
+
+/// Strings do not act on one another, so each renders the whole block by itself.
 void render_string(const StringModel& model, StringState& state, std::span<double* const> outputs,
                    std::size_t frames, double frame_s) JAWARI_REALTIME {
-    if (sleeps_on(state)) {
-        for (double* output : outputs) std::fill_n(output, frames, 0.0);
-        pass_asleep(model, state, frames);
+    std::array<Reading, limits::probes> storage;
+    const std::span<const Reading> readings(storage.data(), linear_probes(model, outputs, storage));
+    if (readings.size() == outputs.size()) {
+        advance_frames(model, state, readings, ReadAt::Start, frames);
         return;
     }
     for (std::size_t n = 0; n < frames; ++n) {
+        if (sleeps_on(state)) {
+            for (double* output : outputs) std::fill_n(output + n, frames - n, 0.0);
+            pass_asleep(model, state, frames - n);
+            return;
+        }
         for (std::size_t p = 0; p < outputs.size(); ++p)
             outputs[p][n] = probe_value(model, state, p, frame_s);
         advance_frame(model, state);
@@ -49,6 +77,27 @@ double probe_value(const StringModel& model, const StringState& state, std::size
             break;
     }
     return value;
+}
+
+void advance_frames(const StringModel& model, StringState& state, std::span<const Reading> readings,
+                    ReadAt when, std::size_t frames) JAWARI_REALTIME {
+    for (std::size_t n = 0; n < frames;) {
+        if (sleeps_on(state)) {
+            for (const Reading& reading : readings) std::fill_n(reading.out + n, frames - n, 0.0);
+            pass_asleep(model, state, frames - n);
+            return;
+        }
+        const std::size_t flying = std::min(frames_to_fly(model, state), frames - n);
+        if (flying > 0) {
+            fly_ahead(model, state, readings, when, n, flying);
+            n += flying;
+            continue;
+        }
+        if (when == ReadAt::Start) read_all(model, state, readings, n);
+        advance_frame(model, state);
+        if (when == ReadAt::End) read_all(model, state, readings, n);
+        ++n;
+    }
 }
 
 void render(const SceneModel& model, SceneState& state, std::span<double* const> outputs,

@@ -52,6 +52,8 @@ CertificateState make_certificate_state(const StringModel& model) {
     }
     bounds.frame_gap_at.assign(model.contact_count, 0);
     bounds.expired.assign(model.contact_count, 0);
+    for (auto* list : {&bounds.expired_groups, &bounds.missing_groups}) list->assign(groups, 0);
+    for (auto* flags : {&bounds.group_has_detour, &bounds.group_has_clearance}) flags->assign(groups, 0);
     return bounds;
 }
 

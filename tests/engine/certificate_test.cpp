@@ -7,6 +7,7 @@
 
 #include "jawari/step_coefficients.h"
 #include "scenes.h"
+#include "flight_kernels.h"
 #include "skipping_kernels.h"
 
 namespace jawari {

@@ -86,6 +86,7 @@ struct CertificateState {
     std::vector<double> group_detour;  ///< D: how far a gap dips below both its values at a frame's ends [m]
     std::vector<double>
         group_clearance;  ///< lower bound of the gaps for as long as the string flies freely [m]
+    std::vector<std::uint8_t> group_has_detour, group_has_clearance;  ///< known since the last refresh
     std::vector<double> group_odometer;  ///< integral of R since the last refresh [m]
     std::vector<double>
         group_push;  ///< what the frame's impulses so far may have moved the gaps until its end [m]
@@ -98,10 +99,13 @@ struct CertificateState {
     std::vector<double> frame_end_gap;  ///< scratch: the same at the frame's end in free flight
     std::vector<std::uint64_t> frame_gap_at;  ///< frame at whose start frame_gap holds
     std::vector<std::uint32_t> expired;       ///< scratch: contacts whose certificate has run out
-    std::uint64_t age = 0;                    ///< frames since the last refresh
-    bool outdated = true;                     ///< an impulse or force has raised the bounds
-    double strongest_speed = 0;               ///< largest r_k ever [m^(3/2)/s]
-    double strongest_extent = 0;              ///< largest |q_k| bound ever
+    std::vector<std::uint32_t> expired_groups, missing_groups;  ///< scratch
+    std::size_t missing_count = 0;
+    std::uint64_t free_frames = 0;  ///< coming frames in which no contact can close, already in the odometers
+    std::uint64_t age = 0;          ///< frames since the last refresh
+    bool outdated = true;           ///< an impulse or force has raised the bounds
+    double strongest_speed = 0;     ///< largest r_k ever [m^(3/2)/s]
+    double strongest_extent = 0;    ///< largest |q_k| bound ever
 };
 
 /// Scratch of a frame solved in contact space; contacts x steps, rows response_stride apart.
