@@ -74,8 +74,8 @@ void set_group_speeds(const StringModel& model, StringState& state) {
         bounds.group_odometer[g] = 0;
         bounds.group_clearance[g] = -std::numeric_limits<double>::infinity();
     }
-    std::fill(bounds.group_has_clearance.begin(), bounds.group_has_clearance.end(), std::uint8_t{0});
-    std::fill(bounds.group_has_detour.begin(), bounds.group_has_detour.end(), std::uint8_t{0});
+    for (auto* known : {&bounds.group_has_detour, &bounds.group_has_clearance, &bounds.group_has_lookout})
+        std::fill(known->begin(), known->end(), std::uint8_t{0});
 }
 
 /// out[g] <- sum_k envelope_g x_k for the groups in `list` that are not flagged yet.

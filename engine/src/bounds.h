@@ -28,6 +28,13 @@ inline double lookahead(const StringModel& model) {
     return looks_ahead(model.law) ? model.step_s / 2 : 0.0;
 }
 
+/// Modes that the lookout flies ahead.
+inline constexpr std::size_t lookout_modes = 64;
+
+inline std::size_t group_of(const StringModel& model, std::size_t contact) {
+    return contact / model.certificate.group_begin[1];
+}
+
 inline std::size_t group_count(const StringModel& model) {
     return model.certificate.group_begin.size() - 1;
 }

@@ -7,10 +7,13 @@
 #include "bounds.h"
 #include "contact.h"
 #include "kernels.h"
+#include "lookout.h"
 
 namespace jawari {
 namespace {
 
+/// Frames that are planned at a time.
+constexpr std::uint64_t longest_plan = 16;
 constexpr std::uint64_t unknown_frame = std::numeric_limits<std::uint64_t>::max();
 
 /// How far a group's gaps may move in the coming frame, the law's lookahead included.
@@ -23,13 +26,35 @@ bool stays_clear(const StringModel& model, const StringState& state, std::size_t
            state.certificate.group_clearance[g] > lookahead(model) * state.certificate.group_speed[g];
 }
 
-/// Frames for which the odometer alone certifies a contact; 0 if not even the coming one.
-double frames_certified(const StringModel& model, const StringState& state, std::size_t g, std::size_t c) {
-    const CertificateState& bounds = state.certificate;
-    const double speed = bounds.group_speed[g];
-    const double room = bounds.open_until[c] - bounds.group_odometer[g] - speed * lookahead(model);
-    if (!(room > 0)) return 0;
-    return std::floor(room / (speed * frame_length(model)) * (1 - 1e-12));  // infinite for a string at rest
+/// Contacts that neither their odometer nor their group's clearance certifies for `frames` coming frames. The
+/// clearances of groups whose odometers run out are completed.
+std::size_t find_watched(const StringModel& model, StringState& state, double frames) {
+    CertificateState& bounds = state.certificate;
+    std::size_t groups = 0;
+    const auto limit_of = [&](std::size_t g) {
+        return bounds.group_odometer[g] +
+               bounds.group_speed[g] * (frame_length(model) * frames + lookahead(model));
+    };
+    for (std::size_t g = 0; g < group_count(model); ++g) {
+        const auto begin = bounds.open_until.begin();
+        const auto first = begin + static_cast<std::ptrdiff_t>(model.certificate.group_begin[g]);
+        const auto last = begin + static_cast<std::ptrdiff_t>(model.certificate.group_begin[g + 1]);
+        if (!(*std::min_element(first, last) > limit_of(g)))
+            bounds.expired_groups[groups++] = static_cast<std::uint32_t>(g);
+    }
+    complete_clearances(model, state, {bounds.expired_groups.data(), groups});
+    std::size_t watched = 0;
+    for (std::size_t i = 0; i < groups; ++i) {
+        const auto g = bounds.expired_groups[i];
+        if (stays_clear(model, state, g)) continue;
+        const double limit = limit_of(g);
+        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
+             ++c) {
+            if (!(bounds.open_until[c] > limit))
+                bounds.lookout.watched[watched++] = static_cast<std::uint32_t>(c);
+        }
+    }
+    return watched;
 }
 
 /// Groups with a contact that its odometer does not certify for the coming frame.
@@ -60,7 +85,8 @@ std::size_t find_expired(const StringModel& model, StringState& state, double im
         const double limit = bounds.group_odometer[g] + frame_travel(model, group_speed(state, g, impulse));
         for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
              ++c) {
-            if (!(bounds.open_until[c] > limit)) bounds.expired[expired++] = static_cast<std::uint32_t>(c);
+            if (bounds.open_until[c] > limit || bounds.certified_at[c] == state.frame) continue;
+            bounds.expired[expired++] = static_cast<std::uint32_t>(c);
         }
     }
     return expired;
@@ -84,11 +110,6 @@ void compute_frame_gaps(const StringModel& model, StringState& state, std::size_
         bounds.frame_gap_at[c] = state.frame;
     }
     state.contact.candidate_count = 0;
-}
-
-std::size_t group_of(const StringModel& model, std::size_t contact) {
-    const std::size_t size = model.certificate.group_begin[1];
-    return contact / size;
 }
 
 /// Contacts that their gap at the frame's start and the speed bound certify leave the list.
@@ -151,9 +172,9 @@ void set_margins(const StringModel& model, StringState& state, double impulse) {
         const bool clear = stays_clear(model, state, g);
         for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
              ++c) {
-            // Of contacts certified by both ends the margin is known; their odometer reading is the frame's
-            // end.
-            if (bounds.frame_gap_at[c] == state.frame + 1) continue;
+            // Of contacts certified by both ends or by the lookout the margin is known; their odometer
+            // reading is the frame's end.
+            if (bounds.frame_gap_at[c] == state.frame + 1 || bounds.certified_at[c] == state.frame) continue;
             bounds.margin[c] = clear ? bounds.group_clearance[g] - lookahead(model) * bounds.group_speed[g]
                                      : bounds.open_until[c] - limit;
         }
@@ -177,19 +198,19 @@ void set_group_margins(const StringModel& model, StringState& state) {
 
 void plan_free_frames(const StringModel& model, StringState& state) JAWARI_REALTIME {
     CertificateState& bounds = state.certificate;
-    auto frames = static_cast<double>(frames_until_refresh(state));
-    for (std::size_t g = 0; g < group_count(model) && frames > 0; ++g) {
-        if (!std::isfinite(bounds.group_speed[g])) frames = 0;
-        if (stays_clear(model, state, g)) continue;
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
-             ++c) {
-            frames = std::min(frames, frames_certified(model, state, g, c));
-        }
+    std::uint64_t frames = std::min<std::uint64_t>(frames_until_refresh(state), longest_plan);
+    const bool finite = std::all_of(bounds.group_speed.begin(), bounds.group_speed.end(),
+                                    [](double speed) { return std::isfinite(speed); });
+    if (!finite) frames = 0;
+    if (frames > 0) {
+        const std::size_t watched = find_watched(model, state, static_cast<double>(frames));
+        if (watched > 0) frames = look_out(model, state, watched, frames);
     }
-    bounds.free_frames = static_cast<std::uint64_t>(frames);
-    bounds.age += bounds.free_frames;
+    bounds.free_frames = frames;
+    bounds.age += frames;
+    const double time = frame_length(model) * static_cast<double>(frames);
     for (std::size_t g = 0; g < group_count(model); ++g)
-        bounds.group_odometer[g] += bounds.group_speed[g] * frame_length(model) * frames;
+        bounds.group_odometer[g] += bounds.group_speed[g] * time;
 }
 
 bool choose_near_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME {
@@ -241,6 +262,7 @@ void forget_bounds(StringState& state) JAWARI_REALTIME {
     bounds.free_frames = 0;
     std::fill(bounds.open_until.begin(), bounds.open_until.end(), -std::numeric_limits<double>::infinity());
     std::fill(bounds.frame_gap_at.begin(), bounds.frame_gap_at.end(), unknown_frame);
+    std::fill(bounds.certified_at.begin(), bounds.certified_at.end(), unknown_frame);
     std::fill(bounds.group_odometer.begin(), bounds.group_odometer.end(), 0.0);
     std::fill(bounds.group_push.begin(), bounds.group_push.end(), 0.0);
 }

@@ -177,7 +177,7 @@ void advance_frame(const StringModel& model, StringState& state) JAWARI_REALTIME
         fly_ahead(model, state, {}, ReadAt::Start, 0, 1);
         return;
     }
-    state.certificate.free_frames = 0;  // an excitation ends what was planned
+    if (state.certificate.free_frames > 0) forget_bounds(state);  // an excitation ends what was planned
     begin_frame(model, state);
     if (!advance_awake(model, state)) start_again(model, state);
     if (state.asleep) {  // just now
