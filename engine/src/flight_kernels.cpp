@@ -123,6 +123,31 @@ bool fly_leg(const FlightRun& run, const Leg& leg) {
     return hn::GetLane(hn::SumOfLanes(d, probe)) == 0;
 }
 
+/// `count` readings side by side, each summed in the order of fly_block().
+template <std::size_t count>
+HWY_INLINE void read_together(std::size_t modes, const Reading* readings, const double* q, const double* v,
+                              std::size_t at) {
+    const Lanes d;
+    Vec sum[count];
+    const double* x[count];
+    for (std::size_t i = 0; i < count; ++i) {
+        sum[i] = hn::Zero(d);
+        x[i] = readings[i].of_velocity ? v : q;
+    }
+    for (std::size_t k = 0; k < modes; k += hn::Lanes(d)) {
+        for (std::size_t i = 0; i < count; ++i)
+            sum[i] = hn::MulAdd(hn::Load(d, readings[i].row + k), hn::Load(d, x[i] + k), sum[i]);
+    }
+    for (std::size_t i = 0; i < count; ++i) readings[i].out[at] = hn::GetLane(hn::SumOfLanes(d, sum[i]));
+}
+
+void read(std::size_t modes, std::span<const Reading> readings, const double* q, const double* v,
+          std::size_t at) {
+    std::size_t i = 0;
+    for (; i + 4 <= readings.size(); i += 4) read_together<4>(modes, readings.data() + i, q, v, at);
+    for (; i < readings.size(); ++i) read_together<1>(modes, readings.data() + i, q, v, at);
+}
+
 bool fly_frames(const FlightRun& run) {
     alignas(vector_alignment) double sums[flight_sums * lane_padding];
     const std::size_t readings = std::max<std::size_t>(run.readings.size(), 1);
@@ -145,6 +170,7 @@ namespace jawari::kernels {
 
 HWY_EXPORT(fly);
 HWY_EXPORT(fly_frames);
+HWY_EXPORT(read);
 
 bool fly(std::size_t n, const FlightModel& flight, const double* q, const double* v, double* q_out,
          double* v_out) noexcept {
@@ -153,6 +179,11 @@ bool fly(std::size_t n, const FlightModel& flight, const double* q, const double
 
 bool fly_frames(const FlightRun& run) noexcept {
     return HWY_DYNAMIC_DISPATCH(fly_frames)(run);
+}
+
+void read(std::size_t modes, std::span<const Reading> readings, const double* q, const double* v,
+          std::size_t at) noexcept {
+    HWY_DYNAMIC_DISPATCH(read)(modes, readings, q, v, at);
 }
 
 }  // namespace jawari::kernels

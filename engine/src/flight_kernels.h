@@ -27,6 +27,10 @@ struct FlightRun {
 };
 bool fly_frames(const FlightRun& run) noexcept;
 
+/// The readings of one moment, to out[at]: the same bits as from fly_frames().
+void read(std::size_t modes, std::span<const Reading> readings, const double* q, const double* v,
+          std::size_t at) noexcept;
+
 /// Sums of a run that are kept at a time: frames times readings.
 inline constexpr std::size_t flight_sums = 256;
 

@@ -3,19 +3,15 @@
 #include <algorithm>
 #include <array>
 
+#include "flight_kernels.h"
 #include "frame.h"
 #include "jawari/energy.h"
-#include "kernels.h"
 
 namespace jawari {
 namespace {
 
-void read_all(const StringModel& model, const StringState& state, std::span<const Reading> readings,
-              std::size_t n) JAWARI_REALTIME {
-    for (const Reading& reading : readings) {
-        const AlignedVector<double>& x = reading.of_velocity ? state.velocity : state.displacement;
-        kernels::row_products(1, state.active_modes, model.stride, reading.row, x.data(), reading.out + n);
-    }
+void read_all(const StringState& state, std::span<const Reading> readings, std::size_t at) JAWARI_REALTIME {
+    kernels::read(state.active_modes, readings, state.displacement.data(), state.velocity.data(), at);
 }
 
 /// Readings of a string's displacement and velocity probes; returns how many there are.
@@ -56,16 +52,16 @@ void render_string(const StringModel& model, StringState& state, std::span<doubl
 
 double probe_value(const StringModel& model, const StringState& state, std::size_t probe,
                    double frame_s) JAWARI_REALTIME {
-    const double* row = model.probe_rows.data() + probe * model.stride;
+    const Quantity quantity = model.probes[probe].quantity;
     double value = 0;
-    switch (model.probes[probe].quantity) {
+    switch (quantity) {
         case Quantity::Displacement:
-            kernels::row_products(1, state.active_modes, model.stride, row, state.displacement.data(),
-                                  &value);
+        case Quantity::Velocity: {
+            const Reading reading{model.probe_rows.data() + probe * model.stride,
+                                  quantity == Quantity::Velocity, &value};
+            read_all(state, {&reading, 1}, 0);
             break;
-        case Quantity::Velocity:
-            kernels::row_products(1, state.active_modes, model.stride, row, state.velocity.data(), &value);
-            break;
+        }
         case Quantity::ContactForce: {
             const auto contact = model.contact_of_description[model.probes[probe].contact];
             if (contact >= 0)
@@ -93,9 +89,9 @@ void advance_frames(const StringModel& model, StringState& state, std::span<cons
             n += flying;
             continue;
         }
-        if (when == ReadAt::Start) read_all(model, state, readings, n);
+        if (when == ReadAt::Start) read_all(state, readings, n);
         advance_frame(model, state);
-        if (when == ReadAt::End) read_all(model, state, readings, n);
+        if (when == ReadAt::End) read_all(state, readings, n);
         ++n;
     }
 }

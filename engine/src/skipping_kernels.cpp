@@ -34,6 +34,23 @@ bool add_force_response(std::size_t n, const FlightModel& flight, double force, 
     return hn::GetLane(hn::SumOfLanes(d, probe)) == 0;
 }
 
+void add_difference(std::size_t n, double scale, const double* HWY_RESTRICT a, const double* HWY_RESTRICT b,
+                    double* HWY_RESTRICT y) {
+    const Lanes d;
+    const std::size_t lanes = hn::Lanes(d);
+    const Vec factor = hn::Set(d, scale);
+    std::size_t i = 0;
+    for (; i + lanes <= n; i += lanes) {
+        const Vec difference = hn::Sub(hn::LoadU(d, a + i), hn::LoadU(d, b + i));
+        hn::StoreU(hn::MulAdd(factor, difference, hn::LoadU(d, y + i)), d, y + i);
+    }
+    const hn::CappedTag<double, 1> one;
+    for (; i < n; ++i) {
+        const auto difference = hn::Sub(hn::LoadU(one, a + i), hn::LoadU(one, b + i));
+        hn::StoreU(hn::MulAdd(hn::Set(one, scale), difference, hn::LoadU(one, y + i)), one, y + i);
+    }
+}
+
 LargestBounds mode_bounds(std::size_t n, const StringModel& model, const double* HWY_RESTRICT q,
                           const double* HWY_RESTRICT v, double* HWY_RESTRICT speed,
                           double* HWY_RESTRICT extent, double* HWY_RESTRICT detour) {
@@ -64,11 +81,16 @@ HWY_AFTER_NAMESPACE();
 namespace jawari::kernels {
 
 HWY_EXPORT(add_force_response);
+HWY_EXPORT(add_difference);
 HWY_EXPORT(mode_bounds);
 
 bool add_force_response(std::size_t n, const FlightModel& flight, double force, double rate,
                         const double* row, double* q, double* v) noexcept {
     return HWY_DYNAMIC_DISPATCH(add_force_response)(n, flight, force, rate, row, q, v);
+}
+
+void add_difference(std::size_t n, double scale, const double* a, const double* b, double* y) noexcept {
+    HWY_DYNAMIC_DISPATCH(add_difference)(n, scale, a, b, y);
 }
 
 LargestBounds mode_bounds(std::size_t n, const StringModel& model, const double* q, const double* v,

@@ -13,6 +13,9 @@ namespace jawari::kernels {
 bool add_force_response(std::size_t n, const FlightModel& flight, double force, double rate,
                         const double* row, double* q, double* v) noexcept;
 
+/// y <- y + scale (a - b) over any n, without alignment
+void add_difference(std::size_t n, double scale, const double* a, const double* b, double* y) noexcept;
+
 struct LargestBounds {
     double speed = 0;
     double extent = 0;

@@ -151,6 +151,7 @@ void put_to_rest(const StringModel& model, StringState& state) noexcept {
 }
 
 void notice_change(const StringModel& model, StringState& state) noexcept {
+    state.lcp.factored = nullptr;
     state.active_modes = model.stride;
     state.asleep = false;
     choose_all_contacts(model, state);
