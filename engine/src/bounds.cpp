@@ -14,6 +14,8 @@ namespace {
 
 /// In free flight bounds only become tighter when computed anew; this often is enough.
 constexpr std::uint64_t refresh_period = 32;
+/// Under excitation they grow with every frame.
+constexpr std::uint64_t excited_refresh_period = 8;
 
 /// Modes behind the last one that matters are put to rest and leave the sums.
 void drop_weak_modes(const StringModel& model, StringState& state, const kernels::LargestBounds& largest) {
@@ -46,17 +48,6 @@ void fall_asleep(StringState& state) {
     std::fill(state.contact.frame_impulse.begin(), state.contact.frame_impulse.end(), 0.0);
     state.active_modes = 0;
     state.asleep = true;
-}
-
-/// kick_g = sum_k envelope_g kick |phi_k(x_force)|
-void set_force_kicks(const StringModel& model, StringState& state) {
-    CertificateState& bounds = state.certificate;
-    AlignedVector<double>& kick = bounds.detour;  // free at this moment
-    for (std::size_t k = 0; k < model.stride; ++k) {
-        kick[k] = model.certificate.kick[k] * std::abs(state.force_row[k]);
-    }
-    kernels::row_products(group_count(model), model.stride, model.stride, model.certificate.envelope.data(),
-                          kick.data(), bounds.group_force_kick.data());
 }
 
 /// speed_g = sum_k envelope_g r_k. Odometers start again from zero; what the readings claimed stays claimed.
@@ -103,7 +94,9 @@ double highest_obstacle(const StringModel& model, const StringState& state, std:
 }  // namespace
 
 bool needs_refresh(const StringState& state) JAWARI_REALTIME {
-    return state.certificate.outdated || state.certificate.age >= refresh_period || is_excited(state);
+    const CertificateState& bounds = state.certificate;
+    const std::uint64_t period = bounds.excited ? excited_refresh_period : refresh_period;
+    return bounds.outdated || bounds.age >= period || bounds.excited != is_excited(state);
 }
 
 std::uint64_t frames_until_refresh(const StringState& state) JAWARI_REALTIME {
@@ -112,10 +105,7 @@ std::uint64_t frames_until_refresh(const StringState& state) JAWARI_REALTIME {
 
 void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME {
     CertificateState& bounds = state.certificate;
-    if (is_excited(state)) {
-        state.active_modes = model.stride;
-        set_force_kicks(model, state);
-    }
+    if (is_excited(state)) state.active_modes = model.stride;
     const kernels::LargestBounds largest =
         kernels::mode_bounds(state.active_modes, model, state.displacement.data(), state.velocity.data(),
                              bounds.speed.data(), bounds.extent.data(), bounds.detour.data());
@@ -132,7 +122,33 @@ void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIM
     }
     set_group_speeds(model, state);
     bounds.age = 0;
-    bounds.outdated = is_excited(state);
+    bounds.outdated = false;
+    bounds.excited = is_excited(state);
+    bounds.kicks = {};
+}
+
+void add_kicks(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    const ExcitationState& excitation = state.excitation;
+    KickState& kicks = state.certificate.kicks;
+    const std::size_t low = state.certificate.lookout.displacement.size();
+    const auto first = static_cast<double>(excitation.elapsed);
+    const auto last = static_cast<double>(excitation.elapsed + model.steps_per_frame);
+    const auto bounds_of = [&](std::size_t begin, std::size_t end) {
+        return kernels::force_bounds(begin, end, model.certificate, excitation.held.data(),
+                                     excitation.ramp.data(), first, last);
+    };
+    const kernels::ForceBounds of_low = bounds_of(0, low);
+    const kernels::ForceBounds of_high = bounds_of(low, model.stride);
+    const double frame_s = frame_length(model);
+    const double largest_shape = bound_safety * std::sqrt(2 / model.length_m);
+    const double scale = largest_shape * frame_s;
+    const double sagitta = largest_shape * frame_s * frame_s / 8;
+    kicks.speed += scale * (of_low.speed + of_high.speed);
+    kicks.overtones += scale * of_high.extent;
+    kicks.detour += scale * (of_low.detour + of_high.detour);
+    kicks.low_detour += scale * of_low.detour;
+    kicks.frame_detour = sagitta * (of_low.variation + of_high.variation);
+    kicks.frame_low_detour = sagitta * of_low.variation;
 }
 
 void complete_clearances(const StringModel& model, StringState& state,

@@ -2,8 +2,6 @@
 // (docs/certificate.md, sections 1, 2 and 4).
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -39,17 +37,9 @@ inline std::size_t group_count(const StringModel& model) {
     return model.certificate.group_begin.size() - 1;
 }
 
-/// Upper bound of the excitation's impulse over the coming frame [N s].
-inline double force_impulse(const StringModel& model, const StringState& state) {
-    if (!is_excited(state)) return 0;
-    const double last = state.force + state.force_rate * static_cast<double>(model.steps_per_frame);
-    return frame_length(model) * std::max(std::abs(state.force), std::abs(last));
-}
-
-/// Bound of the rate of a group's gaps over the coming frame, in which the excitation gives `impulse` [m/s].
-inline double group_speed(const StringState& state, std::size_t g, double impulse) {
-    const CertificateState& bounds = state.certificate;
-    return bounds.group_speed[g] + bound_safety * impulse * bounds.group_force_kick[g];
+/// Bound of the rate of a group's gaps over the coming frame [m/s].
+inline double gap_speed(const StringState& state, std::size_t g) {
+    return state.certificate.group_speed[g] + state.certificate.kicks.speed;
 }
 
 /// True if the bounds must be computed anew before the coming frame.
@@ -61,6 +51,9 @@ std::uint64_t frames_until_refresh(const StringState& state) JAWARI_REALTIME;
 /// Computes the bounds of modes and the groups' speeds from the present state; lets weak modes leave the sums
 /// and a faded string fall asleep.
 void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME;
+
+/// Adds what the excitation of the coming frame does to the bounds.
+void add_kicks(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
 /// group_clearance of the groups listed, where it is not known since the last refresh.
 void complete_clearances(const StringModel& model, StringState& state,

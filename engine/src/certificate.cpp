@@ -33,7 +33,7 @@ std::size_t find_watched(const StringModel& model, StringState& state, double fr
     std::size_t groups = 0;
     const auto limit_of = [&](std::size_t g) {
         return bounds.group_odometer[g] +
-               bounds.group_speed[g] * (frame_length(model) * frames + lookahead(model));
+               gap_speed(state, g) * (frame_length(model) * frames + lookahead(model));
     };
     for (std::size_t g = 0; g < group_count(model); ++g) {
         const auto begin = bounds.open_until.begin();
@@ -42,7 +42,7 @@ std::size_t find_watched(const StringModel& model, StringState& state, double fr
         if (!(*std::min_element(first, last) > limit_of(g)))
             bounds.expired_groups[groups++] = static_cast<std::uint32_t>(g);
     }
-    complete_clearances(model, state, {bounds.expired_groups.data(), groups});
+    if (!is_excited(state)) complete_clearances(model, state, {bounds.expired_groups.data(), groups});
     std::size_t watched = 0;
     for (std::size_t i = 0; i < groups; ++i) {
         const auto g = bounds.expired_groups[i];
@@ -58,11 +58,11 @@ std::size_t find_watched(const StringModel& model, StringState& state, double fr
 }
 
 /// Groups with a contact that its odometer does not certify for the coming frame.
-std::size_t find_expired_groups(const StringModel& model, StringState& state, double impulse) {
+std::size_t find_expired_groups(const StringModel& model, StringState& state) {
     CertificateState& bounds = state.certificate;
     std::size_t expired = 0;
     for (std::size_t g = 0; g < group_count(model); ++g) {
-        const double limit = bounds.group_odometer[g] + frame_travel(model, group_speed(state, g, impulse));
+        const double limit = bounds.group_odometer[g] + frame_travel(model, gap_speed(state, g));
         const std::size_t end = model.certificate.group_begin[g + 1];
         for (std::size_t c = model.certificate.group_begin[g]; c < end; ++c) {
             if (bounds.open_until[c] > limit) continue;
@@ -74,15 +74,15 @@ std::size_t find_expired_groups(const StringModel& model, StringState& state, do
 }
 
 /// Contacts that neither their odometer nor their group's clearance certifies.
-std::size_t find_expired(const StringModel& model, StringState& state, double impulse) {
+std::size_t find_expired(const StringModel& model, StringState& state) {
     CertificateState& bounds = state.certificate;
-    const std::size_t groups = find_expired_groups(model, state, impulse);
+    const std::size_t groups = find_expired_groups(model, state);
     if (!is_excited(state)) complete_clearances(model, state, {bounds.expired_groups.data(), groups});
     std::size_t expired = 0;
     for (std::size_t i = 0; i < groups; ++i) {
         const auto g = bounds.expired_groups[i];
         if (stays_clear(model, state, g)) continue;
-        const double limit = bounds.group_odometer[g] + frame_travel(model, group_speed(state, g, impulse));
+        const double limit = bounds.group_odometer[g] + frame_travel(model, gap_speed(state, g));
         for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
              ++c) {
             if (bounds.open_until[c] > limit || bounds.certified_at[c] == state.frame) continue;
@@ -113,16 +113,14 @@ void compute_frame_gaps(const StringModel& model, StringState& state, std::size_
 }
 
 /// Contacts that their gap at the frame's start and the speed bound certify leave the list.
-std::size_t certify_by_speed(const StringModel& model, StringState& state, std::size_t expired,
-                             double impulse) {
+std::size_t certify_by_speed(const StringModel& model, StringState& state, std::size_t expired) {
     CertificateState& bounds = state.certificate;
     std::size_t left = 0;
     for (std::size_t i = 0; i < expired; ++i) {
         const auto c = bounds.expired[i];
         const std::size_t g = group_of(model, c);
         bounds.open_until[c] = bounds.group_odometer[g] + bounds.frame_gap[c];
-        if (!(bounds.frame_gap[c] > frame_travel(model, group_speed(state, g, impulse))))
-            bounds.expired[left++] = c;
+        if (!(bounds.frame_gap[c] > frame_travel(model, gap_speed(state, g)))) bounds.expired[left++] = c;
     }
     return left;
 }
@@ -139,8 +137,9 @@ void complete_detours_of(const StringModel& model, StringState& state, std::size
 }
 
 /// Contacts that their gaps at both ends of the frame certify leave the list; the others are near.
-void certify_by_both_ends(const StringModel& model, StringState& state, std::size_t left, double impulse) {
+void certify_by_both_ends(const StringModel& model, StringState& state, std::size_t left) {
     CertificateState& bounds = state.certificate;
+    const KickState kicks = is_excited(state) ? bounds.kicks : KickState{};
     ContactState& contact = state.contact;
     kernels::indexed_row_products(bounds.expired.data(), left, state.active_modes, model.stride,
                                   model.contact_rows.data(), state.displacement_flown.data(),
@@ -149,26 +148,25 @@ void certify_by_both_ends(const StringModel& model, StringState& state, std::siz
         const auto c = bounds.expired[i];
         const std::size_t g = group_of(model, c);
         const double end_gap = bounds.frame_end_gap[c] - contact.height[c];
-        const double dip = bounds.group_detour[g] + lookahead(model) * group_speed(state, g, impulse) +
-                           bound_safety * impulse * bounds.group_force_kick[g] * frame_length(model);
+        const double dip = bounds.group_detour[g] + kicks.detour + kicks.frame_detour +
+                           lookahead(model) * gap_speed(state, g);
         bounds.margin[c] = std::min(bounds.frame_gap[c], end_gap) - dip;
         if (!(bounds.margin[c] > 0)) {
             contact.near[contact.near_count++] = c;
             contact.is_near[c] = 1;
         }
         // Holds at the frame's end, when the odometer has moved on by the frame's travel.
-        bounds.open_until[c] =
-            bounds.group_odometer[g] + group_speed(state, g, impulse) * frame_length(model) + end_gap;
+        bounds.open_until[c] = bounds.group_odometer[g] + gap_speed(state, g) * frame_length(model) + end_gap;
         bounds.frame_gap[c] = end_gap;
         bounds.frame_gap_at[c] = state.frame + 1;
     }
 }
 
 /// Margins of the contacts that are not near, for the case that impulses happen in this frame.
-void set_margins(const StringModel& model, StringState& state, double impulse) {
+void set_margins(const StringModel& model, StringState& state) {
     CertificateState& bounds = state.certificate;
     for (std::size_t g = 0; g < group_count(model); ++g) {
-        const double limit = bounds.group_odometer[g] + frame_travel(model, group_speed(state, g, impulse));
+        const double limit = bounds.group_odometer[g] + frame_travel(model, gap_speed(state, g));
         const bool clear = stays_clear(model, state, g);
         for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
              ++c) {
@@ -217,26 +215,27 @@ bool choose_near_contacts(const StringModel& model, StringState& state) JAWARI_R
     ContactState& contact = state.contact;
     for (std::size_t i = 0; i < contact.near_count; ++i) contact.is_near[contact.near[i]] = 0;
     contact.near_count = 0;
-    const double impulse = force_impulse(model, state);
-    const std::size_t expired = find_expired(model, state, impulse);
+    if (is_excited(state)) {
+        add_kicks(model, state);
+        look_out(model, state, find_watched(model, state, 1), 1);
+    }
+    const std::size_t expired = find_expired(model, state);
     if (expired == 0) return false;
     compute_frame_gaps(model, state, expired);
-    const std::size_t left = certify_by_speed(model, state, expired, impulse);
+    const std::size_t left = certify_by_speed(model, state, expired);
     if (left == 0) return false;
     complete_detours_of(model, state, left);
-    certify_by_both_ends(model, state, left, impulse);
+    certify_by_both_ends(model, state, left);
     if (contact.near_count == 0) return false;
-    set_margins(model, state, impulse);
+    set_margins(model, state);
     set_group_margins(model, state);
     return true;
 }
 
 void advance_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME {
     CertificateState& bounds = state.certificate;
-    const double impulse = force_impulse(model, state);
     for (std::size_t g = 0; g < group_count(model); ++g) {
-        bounds.group_odometer[g] +=
-            group_speed(state, g, impulse) * frame_length(model) + bounds.group_push[g];
+        bounds.group_odometer[g] += gap_speed(state, g) * frame_length(model) + bounds.group_push[g];
         bounds.group_push[g] = 0;
     }
     bounds.age += 1;

@@ -5,15 +5,22 @@
 #include "bounds.h"
 #include "flight_kernels.h"
 #include "kernels.h"
+#include "skipping_kernels.h"
 
 namespace jawari {
 namespace {
 
-/// What the low modes alone may dip below both their values at a frame's ends, and the law's lookahead.
+/// What all modes but the low ones can displace a group's gaps by.
+double overtones(const StringState& state, std::size_t g) {
+    return state.certificate.lookout.group_overtones[g] + state.certificate.kicks.overtones;
+}
+
+/// What a gap may dip below both values of its low modes at a frame's ends, the law's lookahead included.
 double dip(const StringModel& model, const StringState& state, std::size_t g) {
-    const CertificateState& bounds = state.certificate;
-    return bounds.lookout.group_detour[g] + bounds.lookout.group_overtones[g] +
-           lookahead(model) * bounds.group_speed[g];
+    const LookoutState& lookout = state.certificate.lookout;
+    const KickState& kicks = state.certificate.kicks;
+    return lookout.group_detour[g] + kicks.low_detour + kicks.frame_low_detour + overtones(state, g) +
+           lookahead(model) * gap_speed(state, g);
 }
 
 /// Bounds of the groups that watched contacts belong to, where they are not known since the last refresh.
@@ -52,14 +59,21 @@ void low_gaps(const StringModel& model, StringState& state, std::size_t watched,
     }
 }
 
-void fly_low_modes(const StringModel& model, LookoutState& lookout) {
+void fly_low_modes(const StringModel& model, StringState& state) {
+    LookoutState& lookout = state.certificate.lookout;
+    const std::size_t low = lookout.displacement.size();
     kernels::FlightRun run;
-    run.modes = lookout.displacement.size();
+    run.modes = low;
     run.frames = 1;
     run.flight = &model.flight;
     run.q = lookout.displacement.data();
     run.v = lookout.velocity.data();
     kernels::fly_frames(run);
+    const ExcitationState& excitation = state.excitation;
+    if (!excitation.active) return;
+    kernels::add_force_response(low, model.flight, excitation.held.data(),
+                                excitation.ramps ? excitation.ramp.data() : nullptr,
+                                static_cast<double>(excitation.elapsed), run.q, run.v);
 }
 
 /// Margin of a watched contact over the frame between the two gaps of its low modes.
@@ -79,8 +93,8 @@ void note_coming_frame(const StringModel& model, StringState& state, std::size_t
         if (!(margin > 0)) continue;
         bounds.margin[c] = margin;
         bounds.certified_at[c] = state.frame;
-        bounds.open_until[c] = bounds.group_odometer[g] + bounds.group_speed[g] * frame_length(model) +
-                               lookout.gap_end[c] - lookout.group_overtones[g];
+        bounds.open_until[c] = bounds.group_odometer[g] + gap_speed(state, g) * frame_length(model) +
+                               lookout.gap_end[c] - overtones(state, g);
     }
 }
 
@@ -92,8 +106,8 @@ void note_end(const StringModel& model, StringState& state, std::size_t watched,
     for (std::size_t i = 0; i < watched; ++i) {
         const auto c = lookout.watched[i];
         const std::size_t g = group_of(model, c);
-        bounds.open_until[c] = bounds.group_odometer[g] + bounds.group_speed[g] * time + lookout.gap[c] -
-                               lookout.group_overtones[g];
+        bounds.open_until[c] =
+            bounds.group_odometer[g] + gap_speed(state, g) * time + lookout.gap[c] - overtones(state, g);
     }
 }
 
@@ -108,7 +122,7 @@ std::size_t look_out(const StringModel& model, StringState& state, std::size_t w
     low_gaps(model, state, watched, lookout.gap);
     std::size_t certified = 0;
     for (; certified < frames; ++certified) {
-        fly_low_modes(model, lookout);
+        fly_low_modes(model, state);
         low_gaps(model, state, watched, lookout.gap_end);
         const bool open = std::all_of(lookout.watched.begin(),
                                       lookout.watched.begin() + static_cast<std::ptrdiff_t>(watched),

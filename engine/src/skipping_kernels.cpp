@@ -13,25 +13,53 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Lanes = hn::ScalableTag<double>;
 using Vec = hn::Vec<Lanes>;
 
-bool add_force_response(std::size_t n, const FlightModel& flight, double force, double rate,
-                        const double* HWY_RESTRICT row, double* HWY_RESTRICT q, double* HWY_RESTRICT v) {
+bool add_force_response(std::size_t n, const FlightModel& flight, const double* HWY_RESTRICT held,
+                        const double* HWY_RESTRICT ramp, double elapsed, double* HWY_RESTRICT q,
+                        double* HWY_RESTRICT v) {
     const Lanes d;
-    const Vec f = hn::Set(d, force);
-    const Vec r = hn::Set(d, rate);
+    const Vec steps = hn::Set(d, elapsed);
     Vec probe = hn::Zero(d);
     for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
-        const Vec shape = hn::Load(d, row + k);
-        const Vec q_unit = hn::MulAdd(f, hn::Load(d, flight.q_held.data() + k),
-                                      hn::Mul(r, hn::Load(d, flight.q_ramp.data() + k)));
-        const Vec v_unit = hn::MulAdd(f, hn::Load(d, flight.v_held.data() + k),
-                                      hn::Mul(r, hn::Load(d, flight.v_ramp.data() + k)));
-        const Vec q_end = hn::MulAdd(shape, q_unit, hn::Load(d, q + k));
-        const Vec v_end = hn::MulAdd(shape, v_unit, hn::Load(d, v + k));
+        Vec force = hn::Load(d, held + k);
+        Vec q_end = hn::Load(d, q + k);
+        Vec v_end = hn::Load(d, v + k);
+        if (ramp != nullptr) {
+            const Vec rate = hn::Load(d, ramp + k);
+            force = hn::MulAdd(steps, rate, force);
+            q_end = hn::MulAdd(rate, hn::Load(d, flight.q_ramp.data() + k), q_end);
+            v_end = hn::MulAdd(rate, hn::Load(d, flight.v_ramp.data() + k), v_end);
+        }
+        q_end = hn::MulAdd(force, hn::Load(d, flight.q_held.data() + k), q_end);
+        v_end = hn::MulAdd(force, hn::Load(d, flight.v_held.data() + k), v_end);
         hn::Store(q_end, d, q + k);
         hn::Store(v_end, d, v + k);
         probe = hn::MulAdd(hn::Add(q_end, v_end), hn::Zero(d), probe);
     }
     return hn::GetLane(hn::SumOfLanes(d, probe)) == 0;
+}
+
+ForceBounds force_bounds(std::size_t begin, std::size_t end, const CertificateModel& certificate,
+                         const double* HWY_RESTRICT held, const double* HWY_RESTRICT ramp, double first,
+                         double last) {
+    const Lanes d;
+    const Vec first_step = hn::Set(d, first);
+    const Vec last_step = hn::Set(d, last);
+    Vec speed = hn::Zero(d), extent = hn::Zero(d), detour = hn::Zero(d), variation = hn::Zero(d);
+    for (std::size_t k = begin; k < end; k += hn::Lanes(d)) {
+        const Vec kick = hn::Load(d, certificate.kick.data() + k);
+        const Vec force = hn::Load(d, held + k);
+        const Vec rate = hn::Load(d, ramp + k);
+        const Vec at_first = hn::MulAdd(first_step, rate, force);
+        const Vec at_last = hn::MulAdd(last_step, rate, force);
+        const Vec start = hn::Abs(at_first);
+        const Vec kicked = hn::Mul(kick, hn::Max(start, hn::Abs(at_last)));
+        speed = hn::Add(speed, kicked);
+        extent = hn::MulAdd(hn::Load(d, certificate.extent.data() + k), kicked, extent);
+        detour = hn::MulAdd(hn::Load(d, certificate.detour.data() + k), kicked, detour);
+        variation = hn::MulAdd(kick, hn::Add(start, hn::Abs(hn::Sub(at_last, at_first))), variation);
+    }
+    return {hn::GetLane(hn::SumOfLanes(d, speed)), hn::GetLane(hn::SumOfLanes(d, extent)),
+            hn::GetLane(hn::SumOfLanes(d, detour)), hn::GetLane(hn::SumOfLanes(d, variation))};
 }
 
 void add_difference(std::size_t n, double scale, const double* HWY_RESTRICT a, const double* HWY_RESTRICT b,
@@ -81,12 +109,18 @@ HWY_AFTER_NAMESPACE();
 namespace jawari::kernels {
 
 HWY_EXPORT(add_force_response);
+HWY_EXPORT(force_bounds);
 HWY_EXPORT(add_difference);
 HWY_EXPORT(mode_bounds);
 
-bool add_force_response(std::size_t n, const FlightModel& flight, double force, double rate,
-                        const double* row, double* q, double* v) noexcept {
-    return HWY_DYNAMIC_DISPATCH(add_force_response)(n, flight, force, rate, row, q, v);
+bool add_force_response(std::size_t n, const FlightModel& flight, const double* held, const double* ramp,
+                        double elapsed, double* q, double* v) noexcept {
+    return HWY_DYNAMIC_DISPATCH(add_force_response)(n, flight, held, ramp, elapsed, q, v);
+}
+
+ForceBounds force_bounds(std::size_t begin, std::size_t end, const CertificateModel& certificate,
+                         const double* held, const double* ramp, double first, double last) noexcept {
+    return HWY_DYNAMIC_DISPATCH(force_bounds)(begin, end, certificate, held, ramp, first, last);
 }
 
 void add_difference(std::size_t n, double scale, const double* a, const double* b, double* y) noexcept {

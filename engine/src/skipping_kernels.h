@@ -8,10 +8,23 @@
 
 namespace jawari::kernels {
 
-/// Adds the response to a force F + rate n (n = 0..m-1) on `row` to the frame's end. Returns false if a
-/// result is not finite.
-bool add_force_response(std::size_t n, const FlightModel& flight, double force, double rate,
-                        const double* row, double* q, double* v) noexcept;
+/// Adds the response to modal forces held + elapsed ramp + ramp n (n = 0..m-1) to the frame's end. Returns
+/// false if a result is not finite. Without a ramp, `ramp` is null.
+bool add_force_response(std::size_t n, const FlightModel& flight, const double* held, const double* ramp,
+                        double elapsed, double* q, double* v) noexcept;
+
+/// Sums over modes of what forces do in the unit of time: with F the larger of the modal force's values at
+/// the frame's ends, and V its value at the start plus its change.
+struct ForceBounds {
+    double speed = 0;      ///< sum kick F
+    double extent = 0;     ///< sum kick extent F
+    double detour = 0;     ///< sum kick detour F
+    double variation = 0;  ///< sum kick V
+};
+
+/// Over modes [begin, end), for modal forces held + n ramp, n from `first` to `last`.
+ForceBounds force_bounds(std::size_t begin, std::size_t end, const CertificateModel& certificate,
+                         const double* held, const double* ramp, double first, double last) noexcept;
 
 /// y <- y + scale (a - b) over any n, without alignment
 void add_difference(std::size_t n, double scale, const double* a, const double* b, double* y) noexcept;
