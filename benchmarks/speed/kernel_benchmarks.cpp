@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <chrono>
 
+#include "flight_kernels.h"
 #include "fma_peak.h"
 #include "jawari/jawari.h"
 #include "kernels.h"
 #include "near_kernels.h"
 #include "scene/read_scene.h"
-#include "flight_kernels.h"
 #include "skipping_kernels.h"
 
 namespace jawari::benchmarks {

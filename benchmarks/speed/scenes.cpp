@@ -81,4 +81,23 @@ SceneDescription guitar(std::size_t strings, double output_rate_hz, double conta
     return description;
 }
 
+SceneDescription held_guitar(Hold hold, double output_rate_hz) {
+    SceneDescription description = guitar(6, output_rate_hz, output_rate_hz, 8.4e4);
+    for (std::size_t s = 0; s < description.strings.size(); ++s) {
+        std::vector<ContactDescription>& contacts = description.strings[s].contacts;
+        if (hold == Hold::Pressed) {
+            const std::size_t fret = 3 + 2 * s;  // 3, 5, ... 13
+            const double between = (contacts[fret - 2].position_m + contacts[fret - 1].position_m) / 2;
+            const double top = std::min(contacts[fret - 2].height_m, contacts[fret - 1].height_m);
+            contacts.push_back({between, top - 3e-4, 0, Side::Above});
+        } else if (hold == Hold::OnAllFrets) {
+            for (ContactDescription& fret : contacts) {
+                const double x = fret.position_m / scale_m;
+                fret.height_m = 6e-3 * x * (1 - x);
+            }
+        }
+    }
+    return description;
+}
+
 }  // namespace jawari::benchmarks

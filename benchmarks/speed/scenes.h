@@ -18,4 +18,14 @@ SceneDescription builtin(const std::string& name, double output_rate_hz, double 
 SceneDescription guitar(std::size_t strings, double output_rate_hz, double contact_rate_hz,
                         double highest_mode_hz);
 
+/// How the strings of held_guitar() are held against their frets.
+enum class Hold {
+    None,
+    Pressed,    ///< each by a rigid finger between two frets, a different one on every string
+    OnAllFrets  ///< each lies on all of its frets, which stand on an arc above the rest line
+};
+
+/// The guitar with its strings held and plucked; resolution as at_quality() sets it.
+SceneDescription held_guitar(Hold hold, double output_rate_hz);
+
 }  // namespace jawari::benchmarks

@@ -52,6 +52,7 @@ void adopt_flight(StringState& state) {
 
 /// The frame without any contact in reach.
 void pass_freely(const StringModel& model, StringState& state) {
+    state.certificate.struck = false;
     if (state.skipping.flight) {
         adopt_flight(state);
         state.excitation.elapsed += model.steps_per_frame;
@@ -70,6 +71,7 @@ void pass_near(const StringModel& model, StringState& state) {
     state.counters.near_frames += 1;
     if (in_contact_space || !struck) adopt_flight(state);
     advance_bounds(model, state);
+    state.certificate.struck = struck;
     if (struck) note_stepped_gaps(model, state);
 }
 
@@ -162,6 +164,7 @@ void fly_ahead(const StringModel& model, StringState& state, std::span<const Rea
     run.first = first;
     const bool finite = kernels::fly_frames(run);
     state.certificate.free_frames -= frames;
+    state.certificate.struck = false;
     state.counters.steps += frames * model.steps_per_frame;
     state.counters.flown_frames += frames;
     state.frame += frames;

@@ -88,6 +88,25 @@ void indexed_row_products(const std::uint32_t* HWY_RESTRICT indices, std::size_t
     for (; i < count; ++i) out[indices[i]] = row_product(n, rows + indices[i] * stride, x);
 }
 
+void add_rows(const std::uint32_t* HWY_RESTRICT indices, std::size_t count, const double* HWY_RESTRICT scales,
+              std::size_t n, std::size_t stride, const double* HWY_RESTRICT rows, double* HWY_RESTRICT y) {
+    const Lanes d;
+    for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
+        Vec even = hn::Load(d, y + k);
+        Vec odd = hn::Zero(d);
+        std::size_t i = 0;
+        for (; i + 2 <= count; i += 2) {
+            const std::uint32_t* c = indices + i;
+            even = hn::MulAdd(hn::Set(d, scales[c[0]]), hn::Load(d, rows + c[0] * stride + k), even);
+            odd = hn::MulAdd(hn::Set(d, scales[c[1]]), hn::Load(d, rows + c[1] * stride + k), odd);
+        }
+        if (i < count)
+            even =
+                hn::MulAdd(hn::Set(d, scales[indices[i]]), hn::Load(d, rows + indices[i] * stride + k), even);
+        hn::Store(hn::Add(even, odd), d, y + k);
+    }
+}
+
 void add_impulse(std::size_t n, double scale, const double* HWY_RESTRICT mobility,
                  const double* HWY_RESTRICT row, double* HWY_RESTRICT v) {
     const Lanes d;
@@ -154,6 +173,7 @@ namespace jawari::kernels {
 HWY_EXPORT(free_velocity);
 HWY_EXPORT(row_products);
 HWY_EXPORT(indexed_row_products);
+HWY_EXPORT(add_rows);
 HWY_EXPORT(add_impulse);
 HWY_EXPORT(add_scaled);
 HWY_EXPORT(energy);
@@ -174,6 +194,11 @@ void row_products(std::size_t rows_count, std::size_t n, std::size_t stride, con
 void indexed_row_products(const std::uint32_t* indices, std::size_t count, std::size_t n, std::size_t stride,
                           const double* rows, const double* x, double* out) noexcept {
     HWY_DYNAMIC_DISPATCH(indexed_row_products)(indices, count, n, stride, rows, x, out);
+}
+
+void add_rows(const std::uint32_t* indices, std::size_t count, const double* scales, std::size_t n,
+              std::size_t stride, const double* rows, double* y) noexcept {
+    HWY_DYNAMIC_DISPATCH(add_rows)(indices, count, scales, n, stride, rows, y);
 }
 
 void add_impulse(std::size_t n, double scale, const double* mobility, const double* row, double* v) noexcept {

@@ -19,6 +19,10 @@ void row_products(std::size_t rows_count, std::size_t n, std::size_t stride, con
 void indexed_row_products(const std::uint32_t* indices, std::size_t count, std::size_t n, std::size_t stride,
                           const double* rows, const double* x, double* out) noexcept;
 
+/// y[k] += sum of scales[c] rows[c * stride + k] over the `count` rows c that `indices` names, k < n
+void add_rows(const std::uint32_t* indices, std::size_t count, const double* scales, std::size_t n,
+              std::size_t stride, const double* rows, double* y) noexcept;
+
 /// v <- v + scale mobility row: what an impulse or a force at one point does to the modes
 void add_impulse(std::size_t n, double scale, const double* mobility, const double* row, double* v) noexcept;
 

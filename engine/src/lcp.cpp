@@ -61,6 +61,7 @@ void gather_column(const Problem& p, std::size_t contact, AlignedVector<double>&
 /// there is no room.
 bool append_active(const Problem& p, std::size_t contact) {
     LcpWorkspace& work = p.work;
+    work.repeated = 0;
     if (work.active_count == work.capacity) return false;
     gather_column(p, contact, work.direction);
     auto row = p.vector(work.direction);
@@ -77,6 +78,7 @@ bool append_active(const Problem& p, std::size_t contact) {
 /// Keeps the first `kept` active contacts and refactors those that follow in work.active up to `count`.
 void refactor_from(const Problem& p, std::size_t kept, std::size_t count) {
     p.work.active_count = kept;
+    p.work.repeated = 0;
     for (std::size_t i = kept; i < count; ++i) {
         const auto contact = p.work.active[i];  // read before append_active writes at or before i
         if (!append_active(p, contact)) p.lambda[contact] = 0;
@@ -85,6 +87,7 @@ void refactor_from(const Problem& p, std::size_t kept, std::size_t count) {
 
 void remove_active(const Problem& p, std::size_t position) {
     LcpWorkspace& work = p.work;
+    work.repeated = 0;
     const std::size_t count = work.active_count - 1;
     std::copy(work.active.begin() + static_cast<std::ptrdiff_t>(position) + 1,
               work.active.begin() + static_cast<std::ptrdiff_t>(work.active_count),
@@ -103,6 +106,31 @@ void solve_with_factor(const Problem& p, AlignedVector<double>& storage) {
 void solve_active(const Problem& p) {
     for (std::size_t i = 0; i < p.work.active_count; ++i) p.work.solution[i] = -p.r[p.work.active[i]];
     solve_with_factor(p, p.work.solution);
+}
+
+using Inverse = Eigen::Map<Matrix, Eigen::Aligned, Eigen::OuterStride<largest_inverse>>;
+
+Inverse inverse_of_active(const Problem& p) {
+    const auto n = static_cast<Eigen::Index>(p.work.active_count);
+    return {p.work.inverse.data(), n, n};
+}
+
+/// The second time in a row that a small active set is kept, its inverse is made; from then on it serves.
+void solve_kept_set(const Problem& p) {
+    LcpWorkspace& work = p.work;
+    work.repeated += 1;
+    if (work.repeated < 2 || work.active_count > largest_inverse) {
+        solve_active(p);
+        return;
+    }
+    Inverse inverse = inverse_of_active(p);
+    if (work.repeated == 2) {
+        inverse.setIdentity();
+        p.factor().triangularView<Eigen::Lower>().solveInPlace(inverse);
+        p.factor().transpose().triangularView<Eigen::Upper>().solveInPlace(inverse);
+    }
+    for (std::size_t i = 0; i < work.active_count; ++i) work.direction[i] = -p.r[work.active[i]];
+    p.vector(work.solution).noalias() = inverse * p.vector(work.direction);
 }
 
 /// Solves for the active impulses exactly; contacts whose impulse is not positive leave until all are.
@@ -141,6 +169,7 @@ void adopt_active_set(const Problem& p) {
         if (!append_active(p, c)) p.lambda[c] = 0;
         agreed = work.active_count;
     }
+    if (agreed < work.active_count) work.repeated = 0;
     work.active_count = agreed;
 }
 
@@ -174,7 +203,7 @@ bool last_set_holds(const Problem& p) {
     LcpWorkspace& work = p.work;
     adopt_active_set(p);
     if (work.active_count == 0) return false;
-    solve_active(p);
+    solve_kept_set(p);
     for (std::size_t i = 0; i < work.active_count; ++i) {
         if (!(work.solution[i] > 0)) return false;
     }
@@ -249,6 +278,7 @@ LcpWorkspace make_lcp_workspace(std::size_t contacts, std::size_t largest_active
     work.capacity = std::min(contacts, largest_active_set);
     work.active.assign(work.capacity + 1, 0);
     work.factor.assign(work.capacity * work.capacity, 0.0);
+    work.inverse.assign(std::min(work.capacity, largest_inverse) * largest_inverse, 0.0);
     work.solution.assign(work.capacity, 0.0);
     work.direction.assign(work.capacity, 0.0);
     return work;
@@ -262,7 +292,7 @@ LcpOutcome solve_lcp(const ContactOperator& A, std::span<const double> r,
     for (const auto c : candidates) lowest = std::min(lowest, r[c]);
     p.tolerance = -1e-13 * lowest;
 
-    if (workspace.factored != A.values) workspace.active_count = 0;
+    if (workspace.factored != A.values) workspace.active_count = workspace.repeated = 0;
     workspace.factored = A.values;
 
     if (!last_set_holds(p)) predict(p);

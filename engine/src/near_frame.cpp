@@ -91,40 +91,89 @@ double* impulses_of(const StringModel& model, NearState& near, std::uint32_t con
     return impulses;
 }
 
-/// Adds what the step's impulses do to the rates of all later steps, and keeps them for the modes.
-void spread_impulses(const StringModel& model, StringState& state, std::size_t n) {
-    NearState& near = state.near_frame;
+/// Impulses of the step that are positive, kept for the modes.
+void keep_impulses(const StringModel& model, StringState& state, std::size_t n) {
     const ContactState& contact = state.contact;
+    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
+        const auto struck = contact.candidates[i];
+        if (contact.impulse[struck] > 0)
+            impulses_of(model, state.near_frame, struck)[n] = contact.impulse[struck];
+    }
+}
+
+/// Adds what the step's impulses do to the rates of all later steps, over time for each near contact.
+void spread_over_time(const StringModel& model, StringState& state, std::size_t n) {
+    const ContactState& contact = state.contact;
+    const std::size_t later = model.steps_per_frame - n - 1;
     for (std::size_t i = 0; i < contact.candidate_count; ++i) {
         const auto struck = contact.candidates[i];
         const double impulse = contact.impulse[struck];
         if (impulse <= 0) continue;
-        impulses_of(model, near, struck)[n] = impulse;
         for (std::size_t j = 0; j < contact.near_count; ++j) {
             const Response response = response_of(model, struck, contact.near[j]);
-            kernels::add_difference(model.steps_per_frame - n - 1, impulse, response.direct + 1,
-                                    response.mirrored + 1,
-                                    near.rates.data() + j * model.response_stride + n + 1);
+            double* rates = state.near_frame.rates.data() + j * model.response_stride + n + 1;
+            kernels::add_difference(later, impulse, response.direct + 1, response.mirrored + 1, rates);
         }
+    }
+}
+
+/// The same over all contacts for each later step.
+void spread_over_contacts(const StringModel& model, StringState& state, std::size_t n) {
+    const ContactState& contact = state.contact;
+    const std::size_t stride = model.contact_stride;
+    const std::size_t step = model.contact_count * stride;
+    for (std::size_t later = n + 1; later < model.steps_per_frame; ++later) {
+        kernels::add_rows(contact.candidates.data(), contact.candidate_count, contact.impulse.data(), stride,
+                          stride, model.step_response.data() + (later - n) * step,
+                          state.near_frame.rates.data() + later * stride);
+    }
+}
+
+/// gap_free <- the gaps at the end of step n without its impulses.
+void predict_near_gaps(const StringModel& model, StringState& state, std::size_t n) {
+    ContactState& contact = state.contact;
+    const AlignedVector<double>& rates = state.near_frame.rates;
+    const bool by_step = !model.step_response.empty();
+    for (std::size_t i = 0; i < contact.near_count; ++i) {
+        const auto c = contact.near[i];
+        const double rate =
+            by_step ? rates[n * model.contact_stride + c] : rates[i * model.response_stride + n];
+        contact.gap_free[c] = contact.gap[c] + model.step_s * rate;
+    }
+}
+
+/// rates <- rates_free, in the order in which impulses spread.
+void begin_rates(const StringModel& model, StringState& state) {
+    NearState& near = state.near_frame;
+    const ContactState& contact = state.contact;
+    if (model.step_response.empty()) {
+        std::copy_n(near.rates_free.begin(), contact.near_count * model.response_stride, near.rates.begin());
+        return;
+    }
+    for (std::size_t i = 0; i < contact.near_count; ++i) {
+        for (std::size_t n = 0; n < model.steps_per_frame; ++n)
+            near.rates[n * model.contact_stride + contact.near[i]] =
+                near.rates_free[i * model.response_stride + n];
     }
 }
 
 /// The causal loop: one small complementarity problem a step.
 void solve_in_contact_space(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
-    ContactState& contact = state.contact;
-    std::copy_n(near.rates_free.begin(), contact.near_count * model.response_stride, near.rates.begin());
+    begin_rates(model, state);
     near.struck_count = 0;
     near.first_impulse = model.steps_per_frame;
     for (std::size_t n = 0; n < model.steps_per_frame; ++n) {
-        for (std::size_t i = 0; i < contact.near_count; ++i) {
-            const auto c = contact.near[i];
-            contact.gap_free[c] = contact.gap[c] + model.step_s * near.rates[i * model.response_stride + n];
-        }
+        predict_near_gaps(model, state, n);
         if (select_candidates(model, state)) {
             solve_impulses(model, state);
             near.first_impulse = std::min(near.first_impulse, n);
-            spread_impulses(model, state, n);
+            keep_impulses(model, state, n);
+            if (model.step_response.empty()) {
+                spread_over_time(model, state, n);
+            } else {
+                spread_over_contacts(model, state, n);
+            }
         } else {
             clear_impulses(state);
         }

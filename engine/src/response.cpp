@@ -96,6 +96,20 @@ void set_dense_responses(StringModel& model) {
     }
 }
 
+/// Step by step, so that impulses spread over all contacts at a time.
+void set_step_responses(StringModel& model) {
+    if (model.steps_per_frame > longest_short_frame) return;
+    const std::size_t count = model.contact_count;
+    model.step_response.assign(model.steps_per_frame * count * model.contact_stride, 0.0);
+    for (std::size_t struck = 0; struck < count; ++struck) {
+        for (std::size_t c = 0; c < count; ++c) {
+            const Response response = response_of(model, struck, c);
+            for (std::size_t n = 0; n < model.steps_per_frame; ++n)
+                model.step_response[(n * count + struck) * model.contact_stride + c] = response.direct[n];
+        }
+    }
+}
+
 void set_grid_responses(StringModel& model) {
     const std::size_t intervals = model.grid_intervals;
     AlignedVector<double> amplitudes(model.steps_per_frame * model.stride, 0.0);
@@ -156,6 +170,7 @@ void set_responses(StringModel& model) {
     if (count == 0 || rows * model.response_stride > largest_response_table) return;
     if (model.grid_node.empty()) {
         set_dense_responses(model);
+        set_step_responses(model);
     } else {
         set_grid_responses(model);
     }

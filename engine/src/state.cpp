@@ -69,8 +69,9 @@ NearState make_near_state(const StringModel& model) {
     NearState near;
     if (model.response.empty()) return near;
     const std::size_t count = model.contact_count;
-    for (auto* array : {&near.rates_free, &near.rates, &near.impulses})
-        array->assign(count * model.response_stride, 0.0);
+    for (auto* array : {&near.rates_free, &near.impulses}) array->assign(count * model.response_stride, 0.0);
+    near.rates.assign(std::max(count * model.response_stride, model.steps_per_frame * model.contact_stride),
+                      0.0);
     near.force_impulses.assign(2 * model.response_stride, 0.0);
     near.lanes.assign(count * kernels::steps_per_run * lane_padding, 0.0);
     near.force_rows.assign(2 * model.stride, 0.0);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "jawari/compile.h"
+#include "jawari/cost.h"
 #include "jawari/description.h"
 #include "jawari/energy.h"
 #include "jawari/instrument_description.h"
@@ -12,6 +13,7 @@
 #include "jawari/model.h"
 #include "jawari/modes.h"
 #include "jawari/obstacles.h"
+#include "jawari/quality.h"
 #include "jawari/render.h"
 #include "jawari/result.h"
 #include "jawari/skipping.h"

@@ -45,13 +45,19 @@ struct ContactOperator {
 struct LcpWorkspace {
     std::size_t capacity = 0;
     std::size_t active_count = 0;
-    const double* factored = nullptr;   ///< values of the operator that the factor is of; null: of none
+    const double* factored = nullptr;  ///< values of the operator that the factor is of; null: of none
+    std::size_t repeated = 0;          ///< solves in a row that kept the active set
+    AlignedVector<double>
+        inverse;  ///< of A over a small active set that has been kept, rows largest_inverse apart
     std::vector<std::uint32_t> active;  ///< indices of the active contacts, in order of the factor's rows
     AlignedVector<double>
         factor;  ///< lower Cholesky factor of A over the active set, capacity x capacity, row-major
     AlignedVector<double> solution;   ///< scratch, capacity
     AlignedVector<double> direction;  ///< scratch, capacity
 };
+
+/// Active sets up to this size get their inverse when they last: a product instead of two triangular solves.
+inline constexpr std::size_t largest_inverse = 32;
 
 /// Room for min(contacts, largest_active_set) active contacts.
 LcpWorkspace make_lcp_workspace(std::size_t contacts,

@@ -64,6 +64,9 @@ struct StringModel {
     /// contacts, or one per grid distance (response.h); empty where the table would be too large.
     AlignedVector<double> response;
     std::size_t response_stride = 0;  ///< padded(steps_per_frame)
+    /// The same of short frames step by step: row [n][struck] over contacts, contact_stride apart; else
+    /// empty.
+    AlignedVector<double> step_response;
 
     // -- energy (energy.h): H = sum kinetic v^2 + potential (q - h v/2)^2, or + potential q^2 for the theta
     // scheme

@@ -127,6 +127,7 @@ struct CertificateState {
     std::uint64_t free_frames = 0;  ///< coming frames in which no contact can close, already in the odometers
     std::uint64_t age = 0;          ///< frames since the last refresh
     bool outdated = true;           ///< an impulse has raised the bounds
+    bool struck = false;            ///< the last frame had impulses: the coming one most likely has
     bool excited = false;           ///< the last refresh was made under excitation
     KickState kicks;
     double strongest_speed = 0;   ///< largest r_k ever [m^(3/2)/s]
@@ -136,9 +137,10 @@ struct CertificateState {
 /// Scratch of a frame solved in contact space; contacts x steps, rows response_stride apart.
 struct NearState {
     AlignedVector<double>
-        rates_free;                  ///< S v of free flight at each step, in the order of ContactState::near
-    AlignedVector<double> rates;     ///< the same with the impulses so far
-    AlignedVector<double> impulses;  ///< lambda at each step, in the order of `struck`
+        rates_free;  ///< S v of free flight at each step, in the order of ContactState::near
+    AlignedVector<double>
+        rates;  ///< the same with the impulses so far; of short frames step by step, contact_stride apart
+    AlignedVector<double> impulses;     ///< lambda at each step, in the order of `struck`
     std::vector<std::uint32_t> struck;  ///< contacts with impulses in the frame; `struck_count` are valid
     std::size_t struck_count = 0;
     AlignedVector<double> force_impulses;  ///< h and h n at each step n, for the held force and its ramp
