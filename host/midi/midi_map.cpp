@@ -1,5 +1,7 @@
 #include "midi/midi_map.h"
 
+#include <algorithm>
+
 namespace jawari::host {
 
 MidiBinding whole_range(MidiSource source, int number, ParameterId parameter) {
@@ -21,11 +23,13 @@ MidiMap default_midi_map() {
 }
 
 double bound_value(const MidiBinding& binding, double travel) JAWARI_REALTIME {
-    ParameterDeclaration range = declaration_of(binding.parameter);
+    const ParameterDeclaration& declared = declaration_of(binding.parameter);
+    ParameterDeclaration range = declared;
     range.low = binding.low;
     range.high = binding.high;
     range.curve = binding.curve;
-    return parameter_value(range, travel);
+    // Rounding, also to whole numbers of a stepped curve, must not leave the declared range.
+    return std::clamp(parameter_value(range, travel), declared.low, declared.high);
 }
 
 bool is_reserved_controller(int controller) JAWARI_REALTIME {
