@@ -19,10 +19,9 @@ bool in_guitar(const InterpreterSettings& settings, int channel) {
            channel < settings.guitar_channel + settings.guitar_strings;
 }
 
-/// Strings of an instrument are listed from the lowest; the guitar's first channel plays the highest.
 int forced_string(const InterpreterSettings& settings, int channel) {
     if (!in_guitar(settings, channel)) return -1;
-    return settings.guitar_strings - 1 - (channel - settings.guitar_channel);
+    return settings.guitar_string[static_cast<std::size_t>(channel - settings.guitar_channel)];
 }
 
 /// Velocity with the 14 bits of controller 88 (CA-031) if that came just before.

@@ -13,10 +13,13 @@
 
 namespace jawari::host {
 
+inline constexpr std::size_t midi_channel_count = 16;
+
 struct InterpreterSettings {
-    int guitar_channel = -1;  ///< 0 to 15: plays the highest string, the next channel the next string;
+    int guitar_channel = -1;  ///< 0 to 15: plays guitar_string[0], the next channel guitar_string[1], ...;
                               ///< -1: no guitar mode
-    int guitar_strings = 0;   ///< strings of the instrument, for guitar mode
+    int guitar_strings = 0;   ///< channels of guitar mode
+    std::array<int, midi_channel_count> guitar_string{};  ///< string of the instrument for each of them
     double bend_range_semitones = 2;  ///< of channels outside MPE zones until RPN 0 says otherwise, 0 to 96
     MidiMap map = default_midi_map();
 };
@@ -40,8 +43,6 @@ struct MidiChannel {
     int mono_key = -1;             ///< the note that is down; -1: none
     std::array<int, 32> coarse{};  ///< last values of controllers 0 to 31, for 14-bit pairs
 };
-
-inline constexpr std::size_t midi_channel_count = 16;
 
 struct MidiInterpreter {
     InterpreterSettings settings;

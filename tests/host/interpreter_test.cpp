@@ -213,8 +213,9 @@ TEST(InterpreterGuitar, OneStringAChannel) {
     InterpreterSettings settings;
     settings.guitar_channel = 10;
     settings.guitar_strings = 4;
+    settings.guitar_string = {3, 2, 1, 0};
     Player player(settings);
-    EXPECT_EQ(player.send(0x9A, 60, 100)[0].string, 3);  // the first channel plays the highest string
+    EXPECT_EQ(player.send(0x9A, 60, 100)[0].string, 3);
     EXPECT_EQ(player.send(0x9D, 60, 100)[0].string, 0);
     EXPECT_EQ(player.send(0x9E, 60, 100)[0].string, -1);
     EXPECT_EQ(player.send(0x99, 60, 100)[0].string, -1);
