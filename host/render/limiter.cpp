@@ -7,6 +7,8 @@ namespace jawari::host {
 
 namespace {
 
+constexpr double audible_reduction = 0.999;  // 0.009 dB
+
 double needed_gain(const Limiter& limiter, double left, double right) {
     const double magnitude = std::max(std::abs(left), std::abs(right));
     return magnitude > limiter.ceiling ? limiter.ceiling / magnitude : 1.0;
@@ -58,7 +60,7 @@ void limit(Limiter& limiter, double& left, double& right) JAWARI_REALTIME {
     left = std::clamp(limiter.left[limiter.at] * gain, -limiter.ceiling, limiter.ceiling);
     right = std::clamp(limiter.right[limiter.at] * gain, -limiter.ceiling, limiter.ceiling);
     limiter.frames += 1;
-    if (gain < 1) limiter.reduced += 1;
+    if (gain < audible_reduction) limiter.reduced += 1;
     limiter.least_gain = std::min(limiter.least_gain, gain);
 }
 

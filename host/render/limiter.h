@@ -23,7 +23,7 @@ struct Limiter {
     std::vector<double> curve;        ///< before the mean
     std::size_t at = 0;
     std::uint64_t frames = 0;   ///< taken
-    std::uint64_t reduced = 0;  ///< frames that left with a gain below 1
+    std::uint64_t reduced = 0;  ///< frames that left more than 0.01 dB softer
     double least_gain = 1;      ///< so far
     double held = 1;            ///< last value of the curve
     std::size_t acting = 0;     ///< frames for which the mean is still to be taken; 0: gain 1

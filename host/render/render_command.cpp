@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <memory>
 #include <string>
