@@ -1,5 +1,5 @@
 // MIDI as it comes over a wire: bytes with running status and messages inside messages ("MIDI 1.0 Detailed
-// Specification", 4.2, pp. 4 to 6 and 5). Plain state; nothing allocates.
+// Specification", 4.2). Plain state; nothing allocates.
 #pragma once
 
 #include <array>

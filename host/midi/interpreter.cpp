@@ -56,7 +56,7 @@ void note_on(MidiInterpreter& interpreter, int channel, int key, int velocity, M
         add_event(actions, {.type = Type::NoteOff, .channel = channel, .key = before, .value = 0.5});
 }
 
-/// A zone's pressure is felt by all its notes: the stronger of the two counts (M1-100-UM 2.2.4 leaves the
+/// A zone's pressure is felt by all its notes: the stronger of the two counts (M1-100-UM leaves the
 /// combination to the receiver).
 void add_pressure(const MidiInterpreter& interpreter, int channel, MidiActions& actions) {
     double pressure = interpreter.channels[static_cast<std::size_t>(channel)].pressure;
@@ -75,7 +75,7 @@ void channel_pressure(MidiInterpreter& interpreter, int channel, int value, Midi
 }
 
 void poly_pressure(MidiInterpreter& interpreter, int channel, int key, int value, MidiActions& actions) {
-    if (is_member(interpreter.zones, channel)) return;  // forbidden there: M1-100-UM 2.2.6
+    if (is_member(interpreter.zones, channel)) return;  // forbidden there: M1-100-UM
     add_event(actions, {.type = Type::Pressure, .channel = channel, .key = key, .value = value / 127.0});
 }
 
@@ -145,7 +145,7 @@ MidiChannel fresh_channel(const MidiInterpreter& interpreter, int channel) JAWAR
     MidiChannel fresh;
     fresh.bend_range_semitones = interpreter.settings.bend_range_semitones;
     if (manager_of(interpreter.zones, channel) == channel) fresh.bend_range_semitones = 2;
-    if (is_member(interpreter.zones, channel)) fresh.bend_range_semitones = 48;  // M1-100-UM 2.4
+    if (is_member(interpreter.zones, channel)) fresh.bend_range_semitones = 48;  // M1-100-UM
     fresh.mono = in_guitar(interpreter.settings, channel);
     return fresh;
 }

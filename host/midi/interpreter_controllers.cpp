@@ -41,14 +41,14 @@ void add_for_zone(const MidiInterpreter& interpreter, int channel, Type type, do
     });
 }
 
-/// What member channels may carry besides notes, bends and pressure (M1-100-UM 2.3): timbre, velocity prefix,
+/// What member channels may carry besides notes, bends and pressure (M1-100-UM): timbre, velocity prefix,
 /// data entry (RPN 0) and channel modes.
 bool may_reach_member(int controller) {
     return controller == 6 || controller == 38 || controller == 74 || controller == 88 ||
            (controller >= 96 && controller <= 101) || controller >= 120;
 }
 
-/// A pair of controllers sends its coarse half first, which clears the fine one (MIDI 1.0, p. 12).
+/// A pair of controllers sends its coarse half first, which clears the fine one (MIDI 1.0).
 void bound_controller(MidiInterpreter& interpreter, int channel, int controller, int value,
                       MidiActions& actions) {
     apply_bindings(interpreter, MidiSource::Controller, controller, channel, control_travel(value, 7),
@@ -88,7 +88,7 @@ void restore_bends(MidiInterpreter& interpreter, int channel, MidiActions& actio
     });
 }
 
-/// Mode 4 of `count` channels, 0: all from this one on (MIDI 1.0, p. 20).
+/// Mode 4 of `count` channels, 0: all from this one on (MIDI 1.0).
 void set_mono(MidiInterpreter& interpreter, int channel, int count, bool mono) {
     const int all = static_cast<int>(midi_channel_count);
     const int end = mono && count != 1 ? std::min(all, count == 0 ? all : channel + count) : channel + 1;

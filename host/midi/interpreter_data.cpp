@@ -1,4 +1,4 @@
-// Registered and non-registered parameter numbers and the data that goes to them (MIDI 1.0, pp. 15 to 18;
+// Registered and non-registered parameter numbers and the data that goes to them (MIDI 1.0;
 // RP-018 for increments).
 #include <algorithm>
 
@@ -18,7 +18,7 @@ MidiChannel& channel_state(MidiInterpreter& interpreter, int channel) {
     return interpreter.channels[static_cast<std::size_t>(channel)];
 }
 
-/// A member's range is that of all members of its zone (M1-100-UM 2.4).
+/// A member's range is that of all members of its zone (M1-100-UM).
 void set_bend_range(MidiInterpreter& interpreter, int channel, double semitones, MidiActions& actions) {
     const double range = std::clamp(semitones, 0.0, 96.0);
     const bool member = is_member(interpreter.zones, channel);
@@ -33,7 +33,7 @@ void set_bend_range(MidiInterpreter& interpreter, int channel, double semitones,
     }
 }
 
-/// The MPE configuration message: every channel whose zone changes starts anew (M1-100-UM 2.1.1).
+/// The MPE configuration message: every channel whose zone changes starts anew (M1-100-UM).
 void configure_zone(MidiInterpreter& interpreter, int manager, int members, MidiActions& actions) {
     const MpeZones before = interpreter.zones;
     interpreter.zones = with_zone(before, manager, members);

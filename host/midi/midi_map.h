@@ -49,7 +49,7 @@ double bound_value(const MidiBinding& binding, double travel) JAWARI_REALTIME;
 bool is_reserved_controller(int controller) JAWARI_REALTIME;
 
 /// Travel of a control of `bits` bits (7 or 14): 0 at 0, 0.5 at the centre (64 or 8192), 1 at the top, linear
-/// on both sides, as MIDI 2.0 translates them ("Min-Center-Max", M2-115-U, section 3.3).
+/// on both sides, as MIDI 2.0 translates them ("Min-Center-Max", M2-115-U).
 double control_travel(int value, int bits) JAWARI_REALTIME;
 
 }  // namespace jawari::host

@@ -1,4 +1,4 @@
-// The channels of MIDI Polyphonic Expression ("MIDI Polyphonic Expression", M1-100-UM v1.0, 2018, section 2).
+// The channels of MIDI Polyphonic Expression ("MIDI Polyphonic Expression", M1-100-UM v1.0, 2018).
 #pragma once
 
 #include "jawari/realtime.h"
@@ -16,7 +16,7 @@ inline constexpr int lower_manager = 0;
 inline constexpr int upper_manager = 15;
 
 /// The MPE configuration message on a manager channel. The zone of the latest message keeps its channels: the
-/// other one shrinks, and ends when no member is left to it (section 2.1).
+/// other one shrinks, and ends when no member is left to it.
 MpeZones with_zone(MpeZones zones, int manager, int members) JAWARI_REALTIME;
 
 /// Manager of the zone that the channel belongs to, as a member or as its manager; -1: no zone.

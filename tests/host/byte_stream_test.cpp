@@ -1,4 +1,4 @@
-// Raw MIDI bytes: "MIDI 1.0 Detailed Specification" 4.2, pp. 5 (running status), 30 (real time).
+// Raw MIDI bytes: "MIDI 1.0 Detailed Specification" 4.2 (running status, real time).
 #include "midi/byte_stream.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Controllers, data entry and modes: MIDI 1.0 Detailed Specification 4.2 (page numbers), RP-015, RP-018.
+// Controllers, data entry and modes: MIDI 1.0 Detailed Specification 4.2, RP-015, RP-018.
 #include "midi/interpreter_controllers.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ double parameter(const std::vector<InstrumentEvent>& events, ParameterId id) {
 TEST(Controllers, VolumeExpressionPanAndModulation) {
     Player player;
     EXPECT_EQ(parameter(player.control(1, 7, 127), ParameterId::Volume), 1.0);
-    EXPECT_EQ(parameter(player.control(1, 7, 64), ParameterId::Volume), 0.25);  // RP-012: 40 log10(v)
+    EXPECT_EQ(parameter(player.control(1, 7, 64), ParameterId::Volume), 0.25);  // General MIDI 2: 40 log10(v)
     EXPECT_EQ(parameter(player.control(1, 11, 0), ParameterId::Expression), 0.0);
     EXPECT_EQ(parameter(player.control(1, 10, 0), ParameterId::Pan), -1.0);
     EXPECT_EQ(parameter(player.control(1, 10, 64), ParameterId::Pan), 0.0);
@@ -34,7 +34,7 @@ TEST(Controllers, VolumeExpressionPanAndModulation) {
 TEST(Controllers, PedalsAndTimbre) {
     Player player;
     EXPECT_EQ(value_of(player.control(1, 64, 127), Type::Sustain, 0), 1.0);
-    EXPECT_LT(value_of(player.control(1, 64, 63), Type::Sustain, 0), 0.5);  // p. A-6: 64 and up is on
+    EXPECT_LT(value_of(player.control(1, 64, 63), Type::Sustain, 0), 0.5);  // 64 and up is on
     EXPECT_GE(value_of(player.control(1, 64, 64), Type::Sustain, 0), 0.5);
     EXPECT_EQ(value_of(player.control(1, 67, 127), Type::SoftPedal, 0), 1.0);
     EXPECT_EQ(value_of(player.control(1, 74, 64), Type::Timbre, 0), 0.5);
@@ -46,7 +46,7 @@ TEST(Controllers, DataGoesNowhereWithoutASelection) {
     player.control(1, 6, 24);
     player.rpn(1, 0, 12);
     player.control(1, 101, 127);
-    player.control(1, 100, 127);  // p. 18: the null number
+    player.control(1, 100, 127);  // the null number
     player.control(1, 6, 24);
     EXPECT_EQ(value_of(player.bend(1, 0), Type::Bend, 0), -12.0);
     player.control(1, 99, 0);  // a non-registered 0 is not the bend range
@@ -73,7 +73,7 @@ TEST(Controllers, IncrementAndDecrement) {
 
 TEST(Controllers, FineTuningIsPartOfTheBend) {
     Player player;
-    EXPECT_EQ(value_of(player.rpn(1, 1, 0), Type::Bend, 0), -1.0);  // p. 17: 00 00 is -100 cents
+    EXPECT_EQ(value_of(player.rpn(1, 1, 0), Type::Bend, 0), -1.0);  // 00 00 is -100 cents
     EXPECT_EQ(value_of(player.rpn(1, 1, 64), Type::Bend, 0), 0.0);
     player.rpn(1, 1, 96);
     EXPECT_NEAR(*value_of(player.bend(1, 16383), Type::Bend, 0), 2.5, 1e-3);
@@ -109,7 +109,7 @@ TEST(Controllers, ChannelModes) {
     EXPECT_EQ(player.control(5, 120, 0)[0].type, Type::AllSoundOff);
     EXPECT_EQ(player.control(5, 120, 0)[0].channel, 4);
     EXPECT_TRUE(player.control(5, 122, 0).empty());
-    for (int mode = 123; mode <= 127; ++mode) {  // p. 21: mode changes are all notes off
+    for (int mode = 123; mode <= 127; ++mode) {  // mode changes are all notes off
         const auto events = player.control(5, mode, 1);
         ASSERT_EQ(events.size(), 1U);
         EXPECT_EQ(events[0].type, Type::AllNotesOff);
@@ -123,7 +123,7 @@ TEST(Controllers, MonoOfSeveralChannels) {
     EXPECT_TRUE(player.interpreter.channels[2].mono);
     EXPECT_TRUE(player.interpreter.channels[3].mono);
     EXPECT_FALSE(player.interpreter.channels[4].mono);
-    player.control(9, 126, 0);  // p. 20: 0 is all channels up to 16
+    player.control(9, 126, 0);  // 0 is all channels up to 16
     EXPECT_TRUE(player.interpreter.channels[15].mono);
 }
 

@@ -1,5 +1,5 @@
 // Notes, bends, pressure, programs, MPE and guitar mode. Expected values are those of the specifications:
-// MIDI 1.0 Detailed Specification 4.2 (page numbers), CA-031, MPE M1-100-UM v1.0 (sections).
+// MIDI 1.0 Detailed Specification 4.2, CA-031, MPE M1-100-UM v1.0.
 #include "midi/interpreter.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ TEST(Interpreter, NotesWithVelocities) {
     const auto off = player.send(0x83, 60, 127);
     EXPECT_EQ(off[0].type, Type::NoteOff);
     EXPECT_EQ(off[0].value, 1.0);
-    const auto silent = player.send(0x93, 60, 0);  // p. 10: velocity 0 is a note-off of medium velocity
+    const auto silent = player.send(0x93, 60, 0);  // velocity 0 is a note-off of medium velocity
     EXPECT_EQ(silent[0].type, Type::NoteOff);
     EXPECT_EQ(silent[0].value, 0.5);
 }
@@ -110,8 +110,8 @@ TEST(Interpreter, MessagesOutOfRangeComeToNothing) {
 
 TEST(InterpreterMpe, DefaultRangesAndTheSumOfBends) {
     Player player;
-    player.rpn(1, 6, 7);                                              // 2.1.1
-    EXPECT_EQ(value_of(player.bend(3, 16383), Type::Bend, 2), 48.0);  // 2.4
+    player.rpn(1, 6, 7);
+    EXPECT_EQ(value_of(player.bend(3, 16383), Type::Bend, 2), 48.0);
     const auto all = player.bend(1, 0);
     EXPECT_EQ(value_of(all, Type::Bend, 0), -2.0);
     EXPECT_EQ(value_of(all, Type::Bend, 1), -2.0);
@@ -139,11 +139,11 @@ TEST(InterpreterMpe, ZoneMessagesReachAllMembers) {
     EXPECT_EQ(value_of(pedal, Type::Sustain, 2), 1.0);
     EXPECT_EQ(player.control(1, 7, 127).size(), 3U);
     EXPECT_EQ(player.control(1, 120, 0).size(), 3U);
-    EXPECT_TRUE(player.control(2, 64, 127).empty());  // 2.3: not on members
+    EXPECT_TRUE(player.control(2, 64, 127).empty());  // not on members
     EXPECT_TRUE(player.control(2, 7, 0).empty());
     player.send(0xC1, 5);
     EXPECT_FALSE(player.actions.program.asked);
-    EXPECT_TRUE(player.send(0xA1, 60, 100).empty());  // 2.2.6: no polyphonic pressure on members
+    EXPECT_TRUE(player.send(0xA1, 60, 100).empty());  // no polyphonic pressure on members
     EXPECT_FALSE(player.send(0xA0, 60, 100).empty());
     EXPECT_EQ(part_channel(player.interpreter, 2), 0);
     EXPECT_EQ(part_channel(player.interpreter, 3), 3);

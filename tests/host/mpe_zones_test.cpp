@@ -1,4 +1,4 @@
-// Zones of M1-100-UM v1.0, section 2.1 and its table of examples.
+// Zones of M1-100-UM v1.0.
 #include "midi/mpe_zones.h"
 
 #include <gtest/gtest.h>
