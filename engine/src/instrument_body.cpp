@@ -92,7 +92,10 @@ StereoSample advance_body(const BodyModel& body, BodyState& state, double force_
         std::fill(state.v.begin(), state.v.end(), 0.0);
         state.force_N = 0;
         state.ringing = false;
-        if (lost) return {};
+        if (lost) {
+            state.nonfinite_resets += 1;
+            return {};
+        }
     }
     return sample;
 }
