@@ -29,10 +29,11 @@ def note_file(key, velocity):
 
 
 def read_float_wav(path):
+    """The left channel."""
     data = path.read_bytes()
     at = data.index(b"data")
     size = struct.unpack("<I", data[at + 4:at + 8])[0]
-    return np.frombuffer(data[at + 8:at + 8 + size], "<f4").astype(float)
+    return np.frombuffer(data[at + 8:at + 8 + size], "<f4")[::2].astype(float)
 
 
 def render(program, preset, setting, key, velocity, folder):

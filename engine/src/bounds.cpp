@@ -130,7 +130,7 @@ void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIM
 void add_kicks(const StringModel& model, StringState& state) JAWARI_REALTIME {
     const ExcitationState& excitation = state.excitation;
     KickState& kicks = state.certificate.kicks;
-    const std::size_t low = state.certificate.lookout.displacement.size();
+    const std::size_t low = low_modes(model);
     const auto first = static_cast<double>(excitation.elapsed);
     const auto last = static_cast<double>(excitation.elapsed + model.steps_per_frame);
     const auto bounds_of = [&](std::size_t begin, std::size_t end) {

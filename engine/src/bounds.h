@@ -2,6 +2,7 @@
 // (docs/certificate.md, sections 1, 2 and 4).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -28,6 +29,10 @@ inline double lookahead(const StringModel& model) {
 
 /// Modes that the lookout flies ahead.
 inline constexpr std::size_t lookout_modes = 64;
+
+inline std::size_t low_modes(const StringModel& model) {
+    return std::min(lookout_modes, model.stride);
+}
 
 inline std::size_t group_of(const StringModel& model, std::size_t contact) {
     return contact / model.certificate.group_begin[1];

@@ -203,7 +203,8 @@ void plan_free_frames(const StringModel& model, StringState& state) JAWARI_REALT
     CertificateState& bounds = state.certificate;
     std::uint64_t frames =
         std::min<std::uint64_t>(frames_until_refresh(state), bounds.struck ? 1 : longest_plan);
-    const bool finite = std::all_of(bounds.group_speed.begin(), bounds.group_speed.end(),
+    const auto speeds = bounds.group_speed.begin();
+    const bool finite = std::all_of(speeds, speeds + static_cast<std::ptrdiff_t>(group_count(model)),
                                     [](double speed) { return std::isfinite(speed); });
     if (!finite) frames = 0;
     if (frames > 0) {

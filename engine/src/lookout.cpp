@@ -27,7 +27,7 @@ double dip(const StringModel& model, const StringState& state, std::size_t g) {
 void complete_lookouts(const StringModel& model, StringState& state, std::size_t watched) {
     CertificateState& bounds = state.certificate;
     LookoutState& lookout = bounds.lookout;
-    const std::size_t low = lookout.displacement.size();
+    const std::size_t low = low_modes(model);
     const std::size_t high = state.active_modes > low ? state.active_modes - low : 0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < watched; ++i) {
@@ -51,7 +51,7 @@ void complete_lookouts(const StringModel& model, StringState& state, std::size_t
 /// gap[c] <- S q - b of the watched contacts, low modes alone.
 void low_gaps(const StringModel& model, StringState& state, std::size_t watched, std::vector<double>& gap) {
     LookoutState& lookout = state.certificate.lookout;
-    kernels::indexed_row_products(lookout.watched.data(), watched, lookout.displacement.size(), model.stride,
+    kernels::indexed_row_products(lookout.watched.data(), watched, low_modes(model), model.stride,
                                   model.contact_rows.data(), lookout.displacement.data(), gap.data());
     for (std::size_t i = 0; i < watched; ++i) {
         const auto c = lookout.watched[i];
@@ -61,7 +61,7 @@ void low_gaps(const StringModel& model, StringState& state, std::size_t watched,
 
 void fly_low_modes(const StringModel& model, StringState& state) {
     LookoutState& lookout = state.certificate.lookout;
-    const std::size_t low = lookout.displacement.size();
+    const std::size_t low = low_modes(model);
     kernels::FlightRun run;
     run.modes = low;
     run.frames = 1;
@@ -117,8 +117,8 @@ std::size_t look_out(const StringModel& model, StringState& state, std::size_t w
                      std::size_t frames) JAWARI_REALTIME {
     LookoutState& lookout = state.certificate.lookout;
     complete_lookouts(model, state, watched);
-    std::copy_n(state.displacement.begin(), lookout.displacement.size(), lookout.displacement.begin());
-    std::copy_n(state.velocity.begin(), lookout.velocity.size(), lookout.velocity.begin());
+    std::copy_n(state.displacement.begin(), low_modes(model), lookout.displacement.begin());
+    std::copy_n(state.velocity.begin(), low_modes(model), lookout.velocity.begin());
     low_gaps(model, state, watched, lookout.gap);
     std::size_t certified = 0;
     for (; certified < frames; ++certified) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "jawari/instrument_render.h"
+#include "library/preset_library.h"
 #include "temporary_folder.h"
 
 namespace jawari::host {
@@ -23,7 +24,8 @@ const std::string valid_preset = R"({
      "string_range": [0, 3], "time_exponent": 0.5, "rise_s": 0.003, "release_s": 0.001, "full_height_m": 0.002,
      "height_exponent": 1.5, "damping_kg_per_s": 0.25},
     {"name": "hammer", "kind": "hammer", "position_share": 0.125, "mass_kg": 0.005, "stiffness_N_per_m_p": 1e9,
-     "exponent": 2.5, "loss_s_per_m": 0.01, "full_speed_m_per_s": 3, "speed_exponent": 1.25},
+     "exponent": 2.5, "loss_s_per_m": 0.01, "full_speed_m_per_s": 3, "speed_exponent": 1.25,
+     "side": "above"},
     {"name": "tangent", "kind": "tangent", "rise_s": 0.002, "full_height_m": 0.001, "height_exponent": 0.75}],
   "hand": {"damps": false, "release_places": [{"position_share": 0.2}, {"position_from_bridge_m": 0.3}], "release_t60_s": 0.2,
            "release_spread": 3, "palm_place": {"position_share": 0.05}, "palm_t60_s": 0.3, "dead_t60_s": 0.04,
@@ -121,6 +123,7 @@ TEST(ReadPreset, EveryKeyOfThePlayersArrives) {
     EXPECT_EQ(hammer.loss_s_per_m, 0.01);
     EXPECT_EQ(hammer.full_speed_m_per_s, 3);
     EXPECT_EQ(hammer.speed_exponent, 1.25);
+    EXPECT_EQ(hammer.side, Side::Above);
     const auto& tangent = std::get<TangentDescription>(i.exciters[2].body);
     EXPECT_EQ(tangent.rise_s, 0.002);
     EXPECT_EQ(tangent.full_height_m, 0.001);
@@ -233,8 +236,8 @@ TEST(FactoryPresets, AllLoadCompileAndSound) {
             const auto model = compile_instrument(preset.value().instrument, rate_hz);
             ASSERT_TRUE(model) << name << ": " << model.failure().line();
             InstrumentState state = make_instrument_state(model.value());
-            const InstrumentEvent event{0, InstrumentEventType::NoteOn, 0, model.value().strings[0].open_note,
-                                        0.8};
+            const int key = preset.value().instrument.strings[0].open_note;
+            const InstrumentEvent event{0, InstrumentEventType::NoteOn, 0, key, 0.8};
             std::vector<double> output(4096);
             render_instrument(model.value(), state, {&event, 1}, output.data(), output.size());
             double peak = 0;

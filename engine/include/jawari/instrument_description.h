@@ -115,6 +115,7 @@ struct HammerDescription {
     double loss_s_per_m = 0;        ///< loss force K xi^p loss dxi/dt, 0 to 10
     double full_speed_m_per_s = 0;  ///< at velocity 1, 0.01 to 50
     double speed_exponent = 1;      ///< speed = full_speed velocity^speed_exponent, 0.1 to 4
+    Side side = Side::Below;        ///< Above: towards frets and neck, as the slapping thumb
 };
 
 /// The clavichord's tangent: the string's end opposite the bridge is moved and stays in contact. The end
@@ -141,7 +142,7 @@ struct ExciterDescription {
 /// the touch alone would give in first order; no touch is harder than one that absorbs best.
 struct HandDescription {
     bool damps = true;  ///< false: strings ring on after note-off, as on a dulcimer
-    std::array<StringPlace, 2> release_places{{{0, 0.137}, {0, 0.31}}};
+    std::array<StringPlace, 2> release_places{{{0, 0.164}, {0, 0.312}}};
     double release_t60_s = 0.1;  ///< at release velocity 0.5; 0.005 to 60
     double release_spread = 2;   ///< T60 times this at release velocity 0, over it at 1; 1 to 10
     StringPlace palm_place{0, 0.03};
