@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "instrument_geometry.h"
 #include "instrument_validate.h"
 #include "jawari/compile.h"
 #include "jawari/energy.h"
@@ -31,45 +32,6 @@ double square(double x) {
 
 double half_cosine(double x) {
     return 0.5 * (1 - std::cos(pi * x));
-}
-
-struct Stiffness {
-    double inharmonicity = 0;  ///< B_f
-    double tension_N = 0;      ///< T_f
-};
-
-/// Bending stiffness K = pi^2 E I = B T L^2 belongs to the string, not to the fret. With the first partial at
-/// f = f_0 sqrt(1+B_f) and T_f = mu (2 L_f f_0)^2 it follows that B_f/(1+B_f) = K/(4 mu L_f^4 f^2): solved
-/// exactly.
-Stiffness stiffness_at(const InstrumentStringDescription& string, std::size_t fret) {
-    const double open = string.inharmonicity / (1 + string.inharmonicity);
-    const double ratio = std::exp2(static_cast<double>(fret) / 12);  // L/L_f = f/f_open
-    const double stopped = open * square(ratio);                     // L_f^4 f^2 falls by ratio^2
-    const double inharmonicity = stopped / (1 - stopped);
-    const double length_m = speaking_length(string.length_m, fret);
-    const double fundamental_hz = string.open_frequency_hz * ratio / std::sqrt(1 + inharmonicity);
-    return {inharmonicity, string.linear_density_kg_per_m * square(2 * length_m * fundamental_hz)};
-}
-
-std::size_t modes_up_to(double limit_hz, double first_partial_hz, double inharmonicity) {
-    const double fundamental_hz = first_partial_hz / std::sqrt(1 + inharmonicity);
-    std::size_t count = 1;
-    while (count <= limits::instrument_modes) {
-        const double k = static_cast<double>(count + 1);
-        if (k * fundamental_hz * std::sqrt(1 + inharmonicity * k * k) > limit_hz) break;
-        ++count;
-    }
-    return count;
-}
-
-std::vector<ContactDescription> frets_beyond(double length_m, const FretsDescription& frets,
-                                             std::size_t fret) {
-    const double stop_height = fret == 0 ? 0.0 : frets.height_m[fret - 1];
-    std::vector<double> heights;
-    for (std::size_t j = fret + 1; j <= frets.height_m.size(); ++j) {
-        heights.push_back(frets.height_m[j - 1] - stop_height * speaking_length(1, j - fret));
-    }
-    return equal_temperament_frets(length_m, heights, frets.restitution);
 }
 
 /// The damping hand adds the same loss to every mode.
@@ -103,7 +65,7 @@ void set_damping_change(StoppedStringModel& stopped) {
 double sensed(std::size_t k, const PickupDescription& pickup, double length_m) {
     const double z = static_cast<double>(k) * pi * pickup.width_m / (2 * length_m);
     const double average = z > 0 ? std::sin(z) / z : 1.0;
-    return pickup.level * average * mode_shape(k, length_m - pickup.position_from_bridge_m, length_m);
+    return pickup.level * average * mode_shape(k, length_m - pickup.place.from_bridge_m, length_m);
 }
 
 double audible_share(double frequency_hz, double output_rate_hz) {
@@ -117,7 +79,7 @@ void set_rows(StoppedStringModel& stopped, const InstrumentDescription& instrume
     const StringModel& model = stopped.ringing;
     stopped.pluck_row.assign(model.stride, 0.0);
     stopped.output_row.assign(model.stride, 0.0);
-    const double pluck_x = model.length_m - instrument.pluck.position_from_bridge_m;
+    const double pluck_x = model.length_m - instrument.exciters[0].place.from_bridge_m;
     for (std::size_t k = 1; k <= model.mode_count; ++k) {
         stopped.pluck_row[k - 1] = mode_shape(k, pluck_x, model.length_m);
         double row = 0;
@@ -152,7 +114,7 @@ void calibrate_finger(StoppedStringModel& stopped, const InstrumentModel& instru
 }
 
 /// Half-cosine flanks at the frames' boundaries: 0 at the first, 1 after the rise, 0 at the last.
-std::vector<double> pluck_shape(const PluckDescription& pluck, double output_rate_hz) {
+std::vector<double> pluck_shape(const FingerDescription& pluck, double output_rate_hz) {
     const auto frames = [&](double seconds) {
         return static_cast<std::size_t>(std::ceil(seconds * output_rate_hz));
     };
@@ -194,7 +156,7 @@ Result<StoppedStringModel> compile_stopped(const InstrumentDescription& instrume
                                            std::size_t fret) {
     const InstrumentStringDescription& string = instrument.strings[index];
     std::string place = "strings[" + std::to_string(index) + "]";
-    StringDescription description = stopped_string(string, instrument.frets, fret, instrument.mode_limit_hz);
+    StringDescription description = stopped_string(instrument, index, fret);
     const std::size_t modes = std::get<PhysicalModes>(description.modes).count;
     if (modes > limits::instrument_modes) {
         return Failure{"mode_limit_hz", std::to_string(modes) + " modes or more on " + place,
@@ -205,35 +167,17 @@ Result<StoppedStringModel> compile_stopped(const InstrumentDescription& instrume
     auto ringing = compile_string(description, instrument, model, place);
     if (!ringing) return ringing.failure();
     stopped.ringing = std::move(ringing.value());
-    description.modes = with_damping_hand(stopped.ringing, instrument.release_t60_s);
+    description.modes = with_damping_hand(stopped.ringing, instrument.hand.release_t60_s);
     auto damped = compile_string(description, instrument, model, place);
     if (!damped) return damped.failure();
     stopped.damped = std::move(damped.value());
     set_damping_change(stopped);
     set_rows(stopped, instrument, string.level, model.output_rate_hz);
-    calibrate_finger(stopped, model, instrument.pluck.full_height_m);
+    calibrate_finger(stopped, model, std::get<FingerDescription>(instrument.exciters[0].body).full_height_m);
     return stopped;
 }
 
 }  // namespace
-
-StringDescription stopped_string(const InstrumentStringDescription& string, const FretsDescription& frets,
-                                 std::size_t fret, double mode_limit_hz) {
-    const Stiffness stiffness = stiffness_at(string, fret);
-    const double first_partial_hz = string.open_frequency_hz * std::exp2(static_cast<double>(fret) / 12);
-    PhysicalModes modes;
-    modes.count = modes_up_to(mode_limit_hz, first_partial_hz, stiffness.inharmonicity);
-    modes.tension_N = stiffness.tension_N;
-    modes.inharmonicity = stiffness.inharmonicity;
-    modes.damping = string.damping;
-    StringDescription stopped;
-    stopped.name = string.name;
-    stopped.length_m = speaking_length(string.length_m, fret);
-    stopped.linear_density_kg_per_m = string.linear_density_kg_per_m;
-    stopped.modes = modes;
-    stopped.contacts = frets_beyond(stopped.length_m, frets, fret);
-    return stopped;
-}
 
 Result<InstrumentModel> compile_instrument(const InstrumentDescription& instrument, double output_rate_hz) {
     if (auto failure = validate(instrument, output_rate_hz)) return *std::move(failure);
@@ -241,16 +185,16 @@ Result<InstrumentModel> compile_instrument(const InstrumentDescription& instrume
     model.name = instrument.name;
     model.output_rate_hz = output_rate_hz;
     model.steps_per_frame =
-        static_cast<std::size_t>(std::ceil(instrument.contact_rate_min_hz / output_rate_hz));
+        static_cast<std::size_t>(std::ceil(instrument.quality.contact_rate_min_hz / output_rate_hz));
     model.contact_rate_hz = output_rate_hz * static_cast<double>(model.steps_per_frame);
-    model.height_exponent = instrument.pluck.height_exponent;
-    model.pluck_shape = pluck_shape(instrument.pluck, output_rate_hz);
+    model.height_exponent = std::get<FingerDescription>(instrument.exciters[0].body).height_exponent;
+    model.pluck_shape = pluck_shape(std::get<FingerDescription>(instrument.exciters[0].body), output_rate_hz);
     model.fade_shape = fade_shape(output_rate_hz);
     for (std::size_t s = 0; s < instrument.strings.size(); ++s) {
         InstrumentStringModel& string = model.strings.emplace_back();
         string.name = instrument.strings[s].name;
         string.open_note = instrument.strings[s].open_note;
-        for (std::size_t fret = 0; fret <= instrument.frets.height_m.size(); ++fret) {
+        for (std::size_t fret = 0; fret <= instrument.frets.count; ++fret) {
             auto stopped = compile_stopped(instrument, model, s, fret);
             if (!stopped) return stopped.failure();
             string.stopped.push_back(std::move(stopped.value()));

@@ -219,6 +219,8 @@ void apply_event(const InstrumentModel& model, InstrumentState& state,
         case InstrumentEventType::AllSoundOff:
             all_sound_off(model, state, event.channel);
             break;
+        default:
+            break;
     }
 }
 

@@ -25,6 +25,13 @@ double advance_strings(const InstrumentModel& model, InstrumentState& state) {
 }  // namespace
 
 void render_instrument(const InstrumentModel& model, InstrumentState& state,
+                       std::span<const InstrumentEvent> events, const InstrumentOutput& output,
+                       std::size_t frames) JAWARI_REALTIME {
+    render_instrument(model, state, events, output.left, frames);
+    std::copy_n(output.left, frames, output.right);
+}
+
+void render_instrument(const InstrumentModel& model, InstrumentState& state,
                        std::span<const InstrumentEvent> events, double* output,
                        std::size_t frames) JAWARI_REALTIME {
     std::size_t next = 0;

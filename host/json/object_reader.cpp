@@ -54,11 +54,11 @@ std::vector<double> read_numbers(const Value& value, const std::string& place, s
     return numbers;
 }
 
-ObjectReader::ObjectReader(const Value& value, std::string path,
-                           std::initializer_list<std::string_view> allowed, Problems& problems)
+ObjectReader::ObjectReader(const Value& value, std::string path, std::vector<std::string_view> allowed,
+                           Problems& problems)
     : object_(std::get_if<Object>(&value.content)),
       path_(std::move(path)),
-      allowed_(allowed),
+      allowed_(std::move(allowed)),
       problems_(problems) {
     if (object_ == nullptr) {
         problems_.add(whole(path_), describe(value), "an object");

@@ -45,7 +45,7 @@ struct Choice {
 class ObjectReader {
   public:
     /// Any key that is neither in `allowed` nor `comment` is a problem. The value must outlive the reader.
-    ObjectReader(const Value& value, std::string path, std::initializer_list<std::string_view> allowed,
+    ObjectReader(const Value& value, std::string path, std::vector<std::string_view> allowed,
                  Problems& problems);
 
     [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }

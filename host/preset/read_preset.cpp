@@ -5,19 +5,21 @@
 #include "common/builtin.h"
 #include "common/input_file.h"
 #include "common/text.h"
-#include "json/object_reader.h"
 #include "json/parse.h"
-#include "scene/read_modes.h"
+#include "preset/read_obstacles.h"
+#include "preset/read_output.h"
+#include "preset/read_players.h"
+#include "preset/read_section.h"
+#include "preset/read_strings.h"
 
 namespace jawari::host {
 
 namespace {
 
-using json::ObjectReader;
 using json::Problems;
 using json::Value;
 
-constexpr std::string_view schema = "jawari.preset/1";
+constexpr std::string_view schema = "jawari.preset/2";
 constexpr std::size_t longest_preset_bytes = std::size_t{4} << 20U;
 
 /// First of all, so that a file of another kind is called that and not blamed for its keys.
@@ -34,93 +36,49 @@ void check_schema(const Value& document, Problems& problems) {
     if (text == nullptr || *text != schema) problems.add("schema", json::describe(*value), expected);
 }
 
-PluckDescription read_pluck(const Value& value, const std::string& path, Problems& problems) {
-    ObjectReader reader(value, path,
-                        {"position_from_bridge_m", "rise_s", "release_s", "full_height_m", "height_exponent"},
-                        problems);
-    PluckDescription pluck;
-    pluck.position_from_bridge_m = reader.number("position_from_bridge_m");
-    pluck.rise_s = reader.number_or("rise_s", pluck.rise_s);
-    pluck.release_s = reader.number_or("release_s", pluck.release_s);
-    pluck.full_height_m = reader.number("full_height_m");
-    pluck.height_exponent = reader.number_or("height_exponent", pluck.height_exponent);
-    return pluck;
+QualityDescription read_quality(const Value& value, const std::string& path, Problems& problems) {
+    preset::Section reader(value, path, {"contact_rate_min_hz", "mode_limit_hz"}, problems);
+    return {reader.number("contact_rate_min_hz"), reader.number("mode_limit_hz")};
 }
 
-FretsDescription read_frets(const Value& value, const std::string& path, Problems& problems) {
-    ObjectReader reader(value, path, {"height_m", "restitution"}, problems);
-    FretsDescription frets;
-    frets.height_m = reader.numbers("height_m", limits::frets);
-    frets.restitution = reader.number_or("restitution", frets.restitution);
-    return frets;
-}
-
-PickupDescription read_pickup(const Value& value, const std::string& path, Problems& problems) {
-    ObjectReader reader(value, path, {"position_from_bridge_m", "width_m", "level"}, problems);
-    PickupDescription pickup;
-    pickup.position_from_bridge_m = reader.number("position_from_bridge_m");
-    pickup.width_m = reader.number_or("width_m", pickup.width_m);
-    pickup.level = reader.number_or("level", pickup.level);
-    return pickup;
-}
-
-InstrumentStringDescription read_string(const Value& value, const std::string& path, Problems& problems) {
-    ObjectReader reader(value, path,
-                        {"name", "open_note", "open_frequency_hz", "length_m", "linear_density_kg_per_m",
-                         "inharmonicity", "damping", "level"},
-                        problems);
-    InstrumentStringDescription string;
-    string.name = reader.text("name");
-    string.open_note = static_cast<int>(reader.whole_number("open_note", 0, 127));
-    string.open_frequency_hz = reader.number("open_frequency_hz");
-    string.length_m = reader.number("length_m");
-    string.linear_density_kg_per_m = reader.number("linear_density_kg_per_m");
-    string.inharmonicity = reader.number_or("inharmonicity", string.inharmonicity);
-    if (const Value* damping = reader.require("damping", "an object")) {
-        string.damping = read_damping(*damping, reader.path_of("damping"), problems);
-    }
-    string.level = reader.number_or("level", string.level);
-    return string;
-}
-
-/// An array of objects, each read by `read`.
-template <class T>
-std::vector<T> read_list(ObjectReader& reader, std::string_view key, std::size_t longest,
-                         T (*read)(const Value&, const std::string&, Problems&)) {
-    std::vector<T> list;
-    const json::Array* array = reader.array(key, longest);
-    if (array == nullptr) return list;
-    for (std::size_t i = 0; i < array->size() && !reader.problems().any(); ++i) {
-        list.push_back(read((*array)[i], json::indexed(reader.path_of(key), i), reader.problems()));
-    }
-    return list;
-}
-
-InstrumentDescription read_document(const Value& document, Problems& problems) {
-    check_schema(document, problems);
-    ObjectReader reader(document, "",
-                        {"schema", "name", "gain", "contact_rate_min_hz", "mode_limit_hz", "law",
-                         "release_t60_s", "pluck", "frets", "pickups", "strings"},
-                        problems);
-    InstrumentDescription instrument;
+void read_general(preset::Section& reader, InstrumentDescription& instrument) {
     instrument.name = reader.text("name");
     instrument.gain = reader.number("gain");
-    instrument.contact_rate_min_hz = reader.number("contact_rate_min_hz");
-    instrument.mode_limit_hz = reader.number("mode_limit_hz");
+    instrument.quality.contact_rate_min_hz = reader.number("contact_rate_min_hz");
+    instrument.quality.mode_limit_hz = reader.number("mode_limit_hz");
+    if (const Value* studio = reader.find("studio"))
+        instrument.studio = read_quality(*studio, reader.path_of("studio"), reader.problems());
     instrument.law = reader.choice_or("law", instrument.law,
                                       {{"newton", ImpactLaw::Newton},
                                        {"passive", ImpactLaw::Passive},
                                        {"signorini", ImpactLaw::Signorini},
                                        {"paoli-schatzman", ImpactLaw::PaoliSchatzman}});
-    instrument.release_t60_s = reader.number("release_t60_s");
-    if (const Value* pluck = reader.require("pluck", "an object")) {
-        instrument.pluck = read_pluck(*pluck, reader.path_of("pluck"), problems);
-    }
-    if (const Value* frets = reader.find("frets")) {
-        instrument.frets = read_frets(*frets, reader.path_of("frets"), problems);
-    }
-    instrument.pickups = read_list(reader, "pickups", limits::pickups, read_pickup);
-    instrument.strings = read_list(reader, "strings", limits::instrument_strings, read_string);
+    instrument.play = reader.choice_or<PlayMode>(
+        "play", instrument.play, {{"keyboard", PlayMode::Keyboard}, {"guitar", PlayMode::Guitar}});
+}
+
+InstrumentDescription read_document(const Value& document, Problems& problems) {
+    check_schema(document, problems);
+    preset::Section reader(
+        document, "",
+        {"schema", "name", "gain", "contact_rate_min_hz", "mode_limit_hz", "studio", "law", "play", "frets",
+         "obstacles", "soft_touches", "exciters", "hand", "pickups", "body", "strings"},
+        problems);
+    InstrumentDescription instrument;
+    read_general(reader, instrument);
+    if (const Value* frets = reader.find("frets"))
+        instrument.frets = preset::read_frets(*frets, reader.path_of("frets"), problems);
+    instrument.obstacles =
+        preset::read_list_or_empty(reader, "obstacles", limits::obstacles, preset::read_obstacle);
+    instrument.soft_touches =
+        preset::read_list_or_empty(reader, "soft_touches", limits::obstacles, preset::read_soft_touch);
+    instrument.exciters = preset::read_list(reader, "exciters", limits::exciters, preset::read_exciter);
+    if (const Value* hand = reader.find("hand"))
+        instrument.hand = preset::read_hand(*hand, reader.path_of("hand"), problems);
+    instrument.pickups = preset::read_list_or_empty(reader, "pickups", limits::pickups, preset::read_pickup);
+    instrument.body = preset::read_list_or_empty(reader, "body", limits::body_modes, preset::read_body_mode);
+    instrument.strings =
+        preset::read_list(reader, "strings", limits::instrument_strings, preset::read_string);
     return instrument;
 }
 

@@ -1,4 +1,4 @@
-// Preset files ("jawari.preset/1", docs/preset-format.md) and built-in instruments.
+// Preset files ("jawari.preset/2", docs/preset-format.md) and built-in instruments.
 #pragma once
 
 #include <string>

@@ -12,14 +12,16 @@ inline InstrumentDescription bass_instrument() {
     InstrumentDescription bass;
     bass.name = "test bass";
     bass.gain = 0.3;
-    bass.contact_rate_min_hz = 200000;
-    bass.mode_limit_hz = 12000;
-    bass.release_t60_s = 0.1;
-    bass.pluck = {.position_from_bridge_m = 0.16, .full_height_m = 0.004, .height_exponent = 1.7};
+    bass.quality = {.contact_rate_min_hz = 200000, .mode_limit_hz = 12000};
+    bass.hand.release_t60_s = 0.1;
+    bass.exciters = {{.name = "finger",
+                      .place = {.from_bridge_m = 0.16},
+                      .body = FingerDescription{.full_height_m = 0.004, .height_exponent = 1.7}}};
     bass.frets.height_m = {-0.00063, -0.00088, -0.00113, -0.00133,  -0.00158,  -0.00173, -0.00188,
                            -0.00198, -0.00213, -0.00218, -0.00223,  -0.00233,  -0.00233, -0.00233,
                            -0.00233, -0.00233, -0.00233, -0.002335, -0.002335, -0.002335};
-    bass.pickups = {{.position_from_bridge_m = 0.09, .width_m = 0.02, .level = 1}};
+    bass.frets.count = bass.frets.height_m.size();
+    bass.pickups = {{.place = {.from_bridge_m = 0.09}, .width_m = 0.02, .level = 1}};
     struct Row {
         const char* name;
         int note;

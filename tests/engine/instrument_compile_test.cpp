@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "bass_instrument.h"
+#include "instrument_geometry.h"
 #include "instrument_voice.h"
 #include "jawari/instrument_model.h"
 #include "jawari/instrument_state.h"
@@ -36,9 +37,9 @@ TEST(InstrumentCompile, FirstPartialIsTheNoteOnEveryStringAndFret) {
 
 TEST(InstrumentCompile, BendingStiffnessDoesNotDependOnTheFret) {
     const InstrumentDescription bass = bass_instrument();
-    for (const InstrumentStringDescription& string : bass.strings) {
+    for (std::size_t s = 0; s < bass.strings.size(); ++s) {
         const auto stiffness = [&](std::size_t fret) {  // pi^2 E I = B T L^2
-            const StringDescription stopped = stopped_string(string, bass.frets, fret, bass.mode_limit_hz);
+            const StringDescription stopped = stopped_string(bass, s, fret);
             const auto& modes = std::get<PhysicalModes>(stopped.modes);
             return modes.inharmonicity * modes.tension_N * stopped.length_m * stopped.length_m;
         };
@@ -55,9 +56,10 @@ TEST(InstrumentCompile, PartialsStretchAndStopAtTheLimit) {
         const double expected = n * std::sqrt((1 + B * n * n) / (1 + B));
         EXPECT_NEAR(e.omega[k - 1] / e.omega[0] / expected, 1, 1e-12);
     }
-    EXPECT_LE(e.omega[e.mode_count - 1] / (2 * pi), bass.mode_limit_hz);
+    EXPECT_LE(e.omega[e.mode_count - 1] / (2 * pi), bass.quality.mode_limit_hz);
     const double next = static_cast<double>(e.mode_count + 1);
-    EXPECT_GT(e.omega[0] / (2 * pi) * next * std::sqrt((1 + B * next * next) / (1 + B)), bass.mode_limit_hz);
+    EXPECT_GT(e.omega[0] / (2 * pi) * next * std::sqrt((1 + B * next * next) / (1 + B)),
+              bass.quality.mode_limit_hz);
 }
 
 /// In the neck's own coordinates: from the nut, heights from the open string's rest line.
@@ -68,7 +70,7 @@ TEST(InstrumentCompile, FretsBeyondTheStopKeepTheirPlaceInSpace) {
         return length * (1 - std::pow(0.5, static_cast<double>(j) / 12));
     };
     for (std::size_t fret = 0; fret <= 20; ++fret) {
-        const StringDescription stopped = stopped_string(bass.strings[0], bass.frets, fret, 10000);
+        const StringDescription stopped = stopped_string(bass, 0, fret);
         ASSERT_EQ(stopped.contacts.size(), 20 - fret);
         const double stop_x = fret_x(fret);
         const double stop_h = fret == 0 ? 0 : bass.frets.height_m[fret - 1];
@@ -138,13 +140,15 @@ TEST(InstrumentCompile, FullVelocityLiftsTheStringAsHighAsSaid) {
             }
             highest = std::max(highest, lift);
         }
-        EXPECT_NEAR(highest, bass.pluck.full_height_m, 1e-6 * bass.pluck.full_height_m) << "fret " << fret;
+        EXPECT_NEAR(highest, std::get<FingerDescription>(bass.exciters[0].body).full_height_m,
+                    1e-6 * std::get<FingerDescription>(bass.exciters[0].body).full_height_m)
+            << "fret " << fret;
     }
 }
 
 TEST(InstrumentCompile, NothingAboveTheOutputsNyquistRateIsHeard) {
     InstrumentDescription bass = bass_instrument();
-    bass.mode_limit_hz = 40000;
+    bass.quality.mode_limit_hz = 40000;
     const InstrumentModel model = compile_instrument(bass, 44100).value();
     for (const InstrumentStringModel& string : model.strings) {
         const StoppedStringModel& open = string.stopped[0];
@@ -163,10 +167,11 @@ TEST(InstrumentCompile, ContactRateIsRoundedUpToAMultipleOfTheOutputRate) {
     InstrumentDescription bass = bass_instrument();
     bass.strings.resize(1);
     bass.frets.height_m.resize(2);
+    bass.frets.count = 2;
     for (const double rate : {44100.0, 48000.0, 96000.0}) {
         const InstrumentModel model = compile_instrument(bass, rate).value();
-        EXPECT_GE(model.contact_rate_hz, bass.contact_rate_min_hz);
-        EXPECT_LT(model.contact_rate_hz, bass.contact_rate_min_hz + rate);
+        EXPECT_GE(model.contact_rate_hz, bass.quality.contact_rate_min_hz);
+        EXPECT_LT(model.contact_rate_hz, bass.quality.contact_rate_min_hz + rate);
         EXPECT_EQ(model.contact_rate_hz, rate * static_cast<double>(model.steps_per_frame));
     }
 }
@@ -182,10 +187,11 @@ TEST(InstrumentCompile, RefusesWhatCannotBeBuilt) {
     using D = InstrumentDescription;
     EXPECT_EQ(place_of([](D&) {}, 100), "output rate");
     EXPECT_EQ(place_of([&](D& d) { d.gain = nan; }), "gain");
-    EXPECT_EQ(place_of([](D& d) { d.contact_rate_min_hz = 1; }), "contact_rate_min_hz");
-    EXPECT_EQ(place_of([](D& d) { d.mode_limit_hz = 1e9; }), "mode_limit_hz");
-    EXPECT_EQ(place_of([](D& d) { d.mode_limit_hz = 4e6, d.contact_rate_min_hz = 1e7; }), "mode_limit_hz");
-    EXPECT_EQ(place_of([](D& d) { d.release_t60_s = 0; }), "release_t60_s");
+    EXPECT_EQ(place_of([](D& d) { d.quality.contact_rate_min_hz = 1; }), "contact_rate_min_hz");
+    EXPECT_EQ(place_of([](D& d) { d.quality.mode_limit_hz = 1e9; }), "mode_limit_hz");
+    EXPECT_EQ(place_of([](D& d) { d.quality.mode_limit_hz = 4e6, d.quality.contact_rate_min_hz = 1e7; }),
+              "mode_limit_hz");
+    EXPECT_EQ(place_of([](D& d) { d.hand.release_t60_s = 0; }), "hand.release_t60_s");
     EXPECT_EQ(place_of([](D& d) { d.strings.clear(); }), "strings");
     EXPECT_EQ(place_of([](D& d) { d.strings[2].open_frequency_hz = -55; }), "strings[2].open_frequency_hz");
     EXPECT_EQ(place_of([](D& d) { d.strings[3].open_note = 120; }), "strings[3].open_note");
@@ -196,10 +202,12 @@ TEST(InstrumentCompile, RefusesWhatCannotBeBuilt) {
     EXPECT_EQ(place_of([](D& d) { d.frets.height_m[9] = -0.002; }),
               "frets.height_m[9]");  // above the line from fret 9
     EXPECT_EQ(place_of([](D& d) { d.frets.restitution = 2; }), "frets.restitution");
-    EXPECT_EQ(place_of([](D& d) { d.pluck.position_from_bridge_m = 0.3; }), "pluck.position_from_bridge_m");
-    EXPECT_EQ(place_of([](D& d) { d.pluck.full_height_m = 1; }), "pluck.full_height_m");
+    EXPECT_EQ(place_of([](D& d) { d.exciters[0].place.from_bridge_m = 0.3; }),
+              "exciters[0].position_from_bridge_m");
+    EXPECT_EQ(place_of([](D& d) { std::get<FingerDescription>(d.exciters[0].body).full_height_m = 1; }),
+              "exciters[0].full_height_m");
     EXPECT_EQ(place_of([](D& d) { d.pickups.clear(); }), "pickups");
-    EXPECT_EQ(place_of([](D& d) { d.pickups[0].position_from_bridge_m = 0; }),
+    EXPECT_EQ(place_of([](D& d) { d.pickups[0].place.from_bridge_m = 0; }),
               "pickups[0].position_from_bridge_m");
     EXPECT_EQ(place_of([](D& d) { d.pickups[0].width_m = -1; }), "pickups[0].width_m");
 }

@@ -16,12 +16,12 @@ constexpr double output_rate_hz = 48000;
 constexpr double largest_cost = 20000;  // modes x frets^2, so that an input takes milliseconds
 
 bool cheap(const InstrumentDescription& instrument) {
-    const double frets = static_cast<double>(instrument.frets.height_m.size()) + 1;
+    const double frets = static_cast<double>(instrument.frets.count) + 1;
     double total = 0;
     for (const InstrumentStringDescription& string : instrument.strings) {
-        total += instrument.mode_limit_hz / string.open_frequency_hz * frets * frets;
+        total += instrument.quality.mode_limit_hz / string.open_frequency_hz * frets * frets;
     }
-    return total >= 0 && total <= largest_cost && instrument.contact_rate_min_hz <= 2e6;
+    return total >= 0 && total <= largest_cost && instrument.quality.contact_rate_min_hz <= 2e6;
 }
 
 void play(const InstrumentModel& model, int key) {

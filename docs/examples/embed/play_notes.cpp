@@ -28,12 +28,13 @@ jawari::InstrumentDescription bass() {
     jawari::InstrumentDescription instrument;
     instrument.name = "two-string bass";
     instrument.gain = 0.1;
-    instrument.contact_rate_min_hz = 500000;
-    instrument.mode_limit_hz = 8000;
-    instrument.pluck.position_from_bridge_m = 0.12;
-    instrument.pluck.full_height_m = 4e-3;
+    instrument.quality = {.contact_rate_min_hz = 500000, .mode_limit_hz = 8000};
+    instrument.exciters.push_back({.name = "finger",
+                                   .place = {.from_bridge_m = 0.12},
+                                   .body = jawari::FingerDescription{.full_height_m = 4e-3}});
     for (int fret = 0; fret < 12; ++fret) instrument.frets.height_m.push_back(-0.8e-3 - fret * 5e-5);
-    instrument.pickups.push_back({.position_from_bridge_m = 0.1, .width_m = 0.01});
+    instrument.frets.count = instrument.frets.height_m.size();
+    instrument.pickups.push_back({.place = {.from_bridge_m = 0.1}, .width_m = 0.01});
     instrument.strings.push_back(bass_string("D", 38, 0.0053));
     instrument.strings.push_back(bass_string("G", 43, 0.0028));
     return instrument;

@@ -56,9 +56,4 @@ inline constexpr double fade_s = 0.003;
 /// as in preset files.
 Result<InstrumentModel> compile_instrument(const InstrumentDescription& instrument, double output_rate_hz);
 
-/// The string stopped at `fret` as a description: what compile_instrument() compiles. Precondition: values
-/// are in their ranges.
-StringDescription stopped_string(const InstrumentStringDescription& string, const FretsDescription& frets,
-                                 std::size_t fret, double mode_limit_hz);
-
 }  // namespace jawari

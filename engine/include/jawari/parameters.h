@@ -1,0 +1,121 @@
+// The parameters that may change while an instrument plays, declared once: command line, preset, MIDI map and
+// plugin read this table. Ids and keys are frozen: new parameters are added at the end.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+namespace jawari {
+
+enum class ParameterId : std::size_t {
+    Volume,
+    Expression,
+    Pan,
+    PluckPosition,
+    PluckHardness,
+    VelocityCurve,
+    PalmMute,
+    PalmPosition,
+    Harmonic,
+    DeadNote,
+    Articulation,
+    Legato,
+    SlideTime,
+    VibratoDepth,
+    VibratoRate,
+    BendRange,
+    PickupMix,
+    BodyMix,
+    ReleaseTime,
+    Action
+};
+
+/// How a control's travel 0..1 covers low..high.
+enum class Curve {
+    Linear,       ///< low + t (high - low)
+    Exponential,  ///< low (high/low)^t; low above 0
+    Squared,      ///< low + t^2 (high - low): MIDI's recommended law of volume and expression
+    Stepped       ///< Linear, rounded to whole numbers
+};
+
+/// Who follows a change.
+enum class Reach {
+    Sounding,  ///< sounding notes, smoothly
+    NextNote,  ///< notes that start afterwards
+    Host       ///< not the engine: the MIDI interpreter
+};
+
+struct ParameterDeclaration {
+    ParameterId id;
+    std::string_view key;  ///< in files and on the command line
+    std::string_view unit;
+    double low, high;
+    double neutral;  ///< the instrument as its preset describes it
+    Curve curve;
+    Reach reach;
+    std::string_view text;
+};
+
+namespace detail {
+using enum ParameterId;
+inline constexpr std::array<ParameterDeclaration, 20> parameters{{
+    {Volume, "volume", "1", 0, 1, 1, Curve::Squared, Reach::Sounding, "Level of the channel's notes"},
+    {Expression, "expression", "1", 0, 1, 1, Curve::Squared, Reach::Sounding,
+     "Level of the channel's notes, beside the volume"},
+    {Pan, "pan", "1", -1, 1, 0, Curve::Linear, Reach::Sounding,
+     "Left (-1) to right (1), added to each string's own place"},
+    {PluckPosition, "pluck_position", "1", 0.25, 4, 1, Curve::Exponential, Reach::NextNote,
+     "Factor of the exciter's distance from the bridge"},
+    {PluckHardness, "pluck_hardness", "1", 0.25, 4, 1, Curve::Exponential, Reach::NextNote,
+     "Speed of release, stiffness of felt; above 1 is brighter"},
+    {VelocityCurve, "velocity_curve", "1", 0.25, 4, 1, Curve::Exponential, Reach::NextNote,
+     "Exponent on note-on velocities; above 1 makes soft notes softer"},
+    {PalmMute, "palm_mute", "1", 0, 1, 0, Curve::Linear, Reach::Sounding,
+     "How firmly the palm damps the strings"},
+    {PalmPosition, "palm_position", "1", 0.25, 4, 1, Curve::Exponential, Reach::NextNote,
+     "Factor of the palm's distance from the bridge"},
+    {Harmonic, "harmonic", "1", 1, 7, 1, Curve::Stepped, Reach::NextNote,
+     "Natural harmonic: a light touch at 1/n of the string; 1 is off"},
+    {DeadNote, "dead_note", "1", 0, 1, 0, Curve::Linear, Reach::NextNote,
+     "How firmly the stopping hand damps a note that it does not press"},
+    {Articulation, "articulation", "1", 0, 16, 0, Curve::Stepped, Reach::NextNote,
+     "0: the preset chooses by velocity and string; n: its n-th exciter"},
+    {Legato, "legato", "1", 0, 1, 0, Curve::Stepped, Reach::NextNote,
+     "1: a note that overlaps another of its channel is a hammer-on or pull-off on its string"},
+    {SlideTime, "slide_time", "s", 0, 2, 0, Curve::Squared, Reach::NextNote,
+     "Time of a slide from note to note in legato; 0: hammer-ons and pull-offs"},
+    {VibratoDepth, "vibrato_depth", "semitones", 0, 2, 0, Curve::Squared, Reach::Sounding,
+     "Amplitude of the vibrato by tension"},
+    {VibratoRate, "vibrato_rate", "Hz", 0.1, 20, 5, Curve::Exponential, Reach::Sounding,
+     "Rate of the vibrato"},
+    {BendRange, "bend_range", "semitones", 0, 96, 2, Curve::Linear, Reach::Host,
+     "Pitch wheel's range, as RPN 0 sets it"},
+    {PickupMix, "pickup_mix", "1", 0, 1, 0.5, Curve::Linear, Reach::Sounding,
+     "0: pickups of the first half alone, 0.5: as the preset mixes them, 1: those of the second half alone"},
+    {BodyMix, "body_mix", "1", 0, 2, 1, Curve::Linear, Reach::Sounding, "Factor of the body's sound"},
+    {ReleaseTime, "release_time", "1", 0.1, 10, 1, Curve::Exponential, Reach::NextNote,
+     "Factor of the decay time after note-off"},
+    {Action, "action", "m", -0.002, 0.004, 0, Curve::Linear, Reach::NextNote,
+     "Distance added between the strings and everything below them"},
+}};
+}  // namespace detail
+
+inline constexpr std::size_t parameter_count = detail::parameters.size();
+
+constexpr std::span<const ParameterDeclaration, parameter_count> parameter_table() {
+    return detail::parameters;
+}
+
+constexpr const ParameterDeclaration& declaration_of(ParameterId id) {
+    return detail::parameters[static_cast<std::size_t>(id)];
+}
+
+/// Value at `travel` (0 to 1) of a control.
+double parameter_value(const ParameterDeclaration& parameter, double travel) noexcept;
+
+/// Travel at which a control stands for `value` (low to high).
+double parameter_travel(const ParameterDeclaration& parameter, double value) noexcept;
+
+}  // namespace jawari
