@@ -38,7 +38,7 @@ def fretted():
         "name": "Fretted bass",
         "comment": ["A four-string electric bass with 20 frets that its strings really strike.",
                     "Velocity 30 stays clear of the frets on every string and fret, velocity 127 hits them hard."],
-        **quality(500000, 40000), "studio": quality(1000000, 80000),
+        **quality(1000000, 80000), "studio": quality(2000000, 120000),
         "provenance": {"contact_rate_min_hz": QUALITY_SOURCE, "mode_limit_hz": QUALITY_SOURCE},
         "frets": sourced({"count": 20, "height_m": FRETTED_HEIGHTS}, height_m=JASA),
         "exciters": [plain_finger(0.16, 0.004, full_height_m="chosen: the published bass is lifted by 3.6 mm")],
@@ -57,7 +57,6 @@ def board_height(x_m):
 
 
 def fretless():
-    stops = [board_height(frets.fret_position(LENGTH, j)) for j in range(1, FRETLESS_STOPS + 1)]
     end_m = frets.fret_position(LENGTH, FRETLESS_STOPS)
     corners = [[rounded(x), board_height(x)] for x in (0.01 + (end_m - 0.01) * i / 12 for i in range(13))]
     surface = "chosen: a board 0.6 mm below the string at the first stop, 1.9 mm at the twelfth, relief 0.15 mm"
@@ -67,7 +66,7 @@ def fretless():
                     "board it rises from.",
                     "Stops are at equal temperament; slides and vibrato go between them by retuning."],
         **quality(500000, 20000), "studio": quality(1000000, 60000),
-        "frets": sourced({"count": FRETLESS_STOPS, "height_m": stops}, height_m=surface),
+        "frets": {"count": FRETLESS_STOPS},
         "obstacles": [sourced({"name": "fingerboard", "origin": "nut", "side": "below", "profile_m": corners, "points": 64},
                               profile_m=surface)],
         "exciters": [plain_finger(0.17, 0.0035)],
@@ -90,7 +89,7 @@ def slap():
         "name": "Slap bass",
         "comment": ["The fretted bass with newer strings and lower frets. The thumb strikes E and A near the neck's end, D and G are popped.",
                     "Articulation 1 is the thumb, 2 the pop, 3 the finger."],
-        **quality(500000, 40000), "studio": quality(1000000, 80000),
+        **quality(1000000, 80000), "studio": quality(2000000, 120000),
         "frets": sourced({"count": 20, "height_m": frets.fret_heights(LENGTH, 20, 0.0005, 0.0016, 0.0001)},
                          height_m="chosen: a low set-up, 0.5 mm at the first fret, 1.6 mm at the twelfth"),
         "exciters": [thumb, pop, plain_finger(0.16, 0.004)],

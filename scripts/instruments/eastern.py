@@ -14,7 +14,7 @@ def player(release_t60_s, **more):
 
 
 def sitar():
-    rows = with_sources(strings.sitar(5.0, 0.8), open_frequency_hz=INDIA + ": kharaj pancham, tonic C sharp", inharmonicity=SOLID,
+    rows = with_sources(strings.sitar(8.0, 1.5), open_frequency_hz=INDIA + ": kharaj pancham, tonic C sharp", inharmonicity=SOLID,
                         linear_density_kg_per_m=[INDIA + f": {gauge}" for gauge in ("0.85 mm brass", "0.55 mm bronze", "0.40 mm bronze",
                                                                                     "0.30 mm steel", "0.27 mm steel")] + ["chosen: 0.25 mm steel",
                                                                                                                          "chosen: 0.22 mm steel"],
@@ -23,14 +23,14 @@ def sitar():
         "name": "Sitar",
         "comment": ["Kharaj-pancham stringing with C sharp as tonic. Baj (F sharp 3) and jor (C sharp 3) are stopped at semitones, the other "
                     "strings are open. No sympathetic strings: strings do not drive each other through the bridge yet.",
-                    "The bridge is a parabola that starts where the string does. A loud note wraps 6 mm of it, a dying one unrolls, and the "
+                    "The bridge is a parabola that starts where the string does. A loud note wraps much of it, a dying one unrolls, and the "
                     "partials that this feeds wander."],
         **quality(400000, 22000), "studio": quality(1000000, 60000), "provenance": BODY,
         "frets": {"count": 0},
         "obstacles": [sourced({"name": "jawari bridge", "origin": "bridge", "side": "below",
-                               "parabola": {"length_m": 0.012, "drop_m": 0.00023, "height_m": 0.0}, "points": 10},
-                              parabola="published shape and size (buckinghammusic.com, sitar tutorial: 'a parabola', 'curved down about one "
-                                       "millimetre' over the bridge's 25 mm): its first 12 mm")],
+                               "parabola": {"length_m": 0.020, "drop_m": 0.00015, "height_m": 0.0}, "points": 12},
+                              parabola="chosen: the published shape (buckinghammusic.com, sitar tutorial: 'a parabola', 'curved down about one "
+                                       "millimetre' over 25 mm), made flatter by ear until a long note keeps buzzing")],
         "exciters": [finger("mizrab", from_bridge(0.09), 0.002, 0.003, 0.0002, 0.003, 1.3, 0.3)],
         "hand": player(0.15, pressure_semitones=3), "pickups": [bridge_force(0.01)], "body": body.SITAR,
         "strings": panned([{**row, **({"frets": {"count": 24}} if row["name"] in ("baj", "jor") else {})} for row in rows], 0.2),

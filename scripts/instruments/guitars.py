@@ -41,7 +41,7 @@ def steel():
                     "Articulation 1 is the plectrum, 2 the finger."],
         **quality(400000, 24000), "studio": quality(1000000, 60000), "provenance": BODY,
         "frets": fret_board(length, 20, 0.00055, 0.0022, 0.00015),
-        "exciters": [plectrum(0.13, 0.0035, 0.0003), finger("finger", from_bridge(0.15), 0.008, 0.006, 0.0009, 0.0035, 1.4, 0.8)],
+        "exciters": [plectrum(0.13, 0.0025, 0.0003), finger("finger", from_bridge(0.15), 0.008, 0.006, 0.0009, 0.0025, 1.4, 0.8)],
         "hand": player(), "pickups": [bridge_force(0.004)], "body": body.STEEL_GUITAR,
         "strings": panned(daddario_sources(rows, [row[2] for row in strings.STEEL_SET], "chosen: 25.4 in, usual for dreadnoughts",
                                            "chosen: string and body together, not measured"), 0.25),
@@ -56,12 +56,12 @@ def nylon():
                                             "body takes")
     return {
         "name": "Classical guitar",
-        "comment": ["Nylon strings plucked by a fingertip. High action: it hardly ever touches a fret.",
+        "comment": ["Nylon strings plucked by a fingertip. High action: it touches the frets only when plucked hard.",
                     "Articulation 1 is the fingertip, 2 the nail near the bridge."],
         **quality(300000, 16000), "studio": quality(1000000, 40000), "provenance": BODY,
-        "frets": fret_board(length, 19, 0.0008, 0.0035, 0.0001),
-        "exciters": [finger("fingertip", from_bridge(0.11), 0.006, 0.006, 0.0007, 0.004, 1.3, 0.5),
-                     finger("nail", from_bridge(0.07), 0.003, 0.005, 0.0003, 0.0035, 1.3, 0.5)],
+        "frets": fret_board(length, 19, 0.0009, 0.0038, 0.0001),
+        "exciters": [finger("fingertip", from_bridge(0.11), 0.006, 0.006, 0.0007, 0.0022, 1.3, 0.5),
+                     finger("nail", from_bridge(0.07), 0.003, 0.005, 0.0003, 0.002, 1.3, 0.5)],
         "hand": player(), "pickups": [bridge_force(0.004)], "body": body.CLASSICAL_GUITAR, "strings": panned(rows, 0.25),
     }
 
@@ -75,7 +75,7 @@ def electric():
                    "to the other.",
         **quality(400000, 24000), "studio": quality(1000000, 60000),
         "frets": fret_board(length, 22, 0.0004, 0.0017, 0.00015),
-        "exciters": [plectrum(0.10, 0.003, 0.0002)],
+        "exciters": [plectrum(0.10, 0.002, 0.0002)],
         "hand": player(0.1),
         "pickups": [velocity_pickup(0.045, 0.012, 1, "bridge single coil", magnet_distance_m=0.012),
                     velocity_pickup(0.16, 0.012, 0.8, "neck single coil", magnet_distance_m=0.012)],
@@ -104,7 +104,7 @@ def twelve():
         "comment": "The steel-string guitar with six courses: octaves on E, A, D, G, unisons on B and e. The plectrum crosses a course in 4 ms.",
         **quality(300000, 18000), "studio": quality(1000000, 50000), "provenance": BODY,
         "frets": fret_board(length, 20, 0.0006, 0.0024, 0.00015),
-        "exciters": [plectrum(0.13, 0.003, 0.0003)],
+        "exciters": [plectrum(0.13, 0.0022, 0.0003)],
         "hand": player(course_delay_s=0.004), "pickups": [bridge_force(0.004)], "body": body.STEEL_GUITAR,
         "strings": daddario_sources(rows, gauges, "chosen: 25.4 in", "chosen: string and body together, not measured", tunings),
     }
