@@ -30,7 +30,7 @@ def sitar():
         "obstacles": [sourced({"name": "jawari bridge", "origin": "bridge", "side": "below",
                                "parabola": {"length_m": 0.020, "drop_m": 0.00015, "height_m": 0.0}, "points": 12},
                               parabola="chosen: the published shape (buckinghammusic.com, sitar tutorial: 'a parabola', 'curved down about one "
-                                       "millimetre' over 25 mm), made flatter by ear until a long note keeps buzzing")],
+                                       "millimetre' over 25 mm), made flatter until a long note keeps buzzing")],
         "exciters": [finger("mizrab", from_bridge(0.09), 0.002, 0.003, 0.0002, 0.003, 1.3, 0.3)],
         "hand": player(0.15, pressure_semitones=3), "pickups": [bridge_force(0.01)], "body": body.SITAR,
         "strings": panned([{**row, **({"frets": {"count": 24}} if row["name"] in ("baj", "jor") else {})} for row in rows], 0.2),

@@ -144,7 +144,7 @@ RUBBERS = [1, 4, 8, 13, 18, 23]                     # strings with a rubber wedg
 def bolt(string, length_m):
     where = rounded(0.23 * length_m, 3)
     gap = [0.00025, 0.00012, 0.0004][string % 3]
-    source = "chosen by ear: a bolt near 0.23 of the string, loose by a fraction of a millimetre"
+    source = "chosen: a bolt near 0.23 of the string, loose by a fraction of a millimetre"
     return [sourced({"name": f"bolt {string} {side}", "origin": "bridge", "side": side, "profile_m": [[where, height]], "points": 0,
                      "strings": [string]}, profile_m=source) for side, height in (("below", -gap), ("above", gap))]
 

@@ -1,6 +1,6 @@
 """Sections of a preset, with where each value comes from."""
 
-EAR = "chosen by ear"
+EAR = "chosen: an estimate, not measured"
 NOT_SOURCED = {"name", "kind", "origin", "side", "strings", "string_range", "course", "quantity", "damps", "provenance", "comment", "points",
                "open_note"}
 
