@@ -2,7 +2,7 @@
 import body
 import frets
 import strings
-from parts import bridge_force, finger, from_bridge, hand, panned, quality, sourced, velocity_pickup, with_sources
+from parts import finger, from_bridge, hand, panned, quality, sourced, velocity_pickup, with_sources
 from wire import DADDARIO_SOURCE
 
 TUNING = "published: standard tuning, A4 at 440 Hz"
@@ -42,7 +42,7 @@ def steel():
         **quality(400000, 24000), "studio": quality(1000000, 60000), "provenance": BODY,
         "frets": fret_board(length, 20, 0.00055, 0.0022, 0.00015),
         "exciters": [plectrum(0.13, 0.0025, 0.0003), finger("finger", from_bridge(0.15), 0.008, 0.006, 0.0009, 0.0025, 1.4, 0.8)],
-        "hand": player(), "pickups": [bridge_force(0.004)], "body": body.STEEL_GUITAR,
+        "hand": player(), "body": body.STEEL_GUITAR,
         "strings": panned(daddario_sources(rows, [row[2] for row in strings.STEEL_SET], "chosen: 25.4 in, usual for dreadnoughts",
                                            "chosen: string and body together, not measured"), 0.25),
     }
@@ -62,7 +62,7 @@ def nylon():
         "frets": fret_board(length, 19, 0.0009, 0.0038, 0.0001),
         "exciters": [finger("fingertip", from_bridge(0.11), 0.006, 0.006, 0.0007, 0.0022, 1.3, 0.5),
                      finger("nail", from_bridge(0.07), 0.003, 0.005, 0.0003, 0.002, 1.3, 0.5)],
-        "hand": player(), "pickups": [bridge_force(0.004)], "body": body.CLASSICAL_GUITAR, "strings": panned(rows, 0.25),
+        "hand": player(), "body": body.CLASSICAL_GUITAR, "strings": panned(rows, 0.25),
     }
 
 
@@ -105,7 +105,7 @@ def twelve():
         **quality(300000, 18000), "studio": quality(1000000, 50000), "provenance": BODY,
         "frets": fret_board(length, 20, 0.0006, 0.0024, 0.00015),
         "exciters": [plectrum(0.13, 0.0022, 0.0003)],
-        "hand": player(course_delay_s=0.004), "pickups": [bridge_force(0.004)], "body": body.STEEL_GUITAR,
+        "hand": player(course_delay_s=0.004), "body": body.STEEL_GUITAR,
         "strings": daddario_sources(rows, gauges, "chosen: 25.4 in", "chosen: string and body together, not measured", tunings),
     }
 

@@ -2,7 +2,7 @@
 import body
 import strings
 import wire
-from parts import bridge_force, finger, hammer, hand, quality, share, sourced
+from parts import finger, hammer, hand, quality, share, sourced
 from strings import interpolated, stepped
 from wire import note_hz, rounded
 
@@ -60,7 +60,7 @@ def harpsichord():
             "body": "published density of modes (Savage, Kottick, Hendrickson, Marshall, JASA 91 (1992): 36 up to 600 Hz); the rest is chosen"},
         "frets": {"count": 0},
         "exciters": [quill(low, high) for low, high in GROUPS],
-        "hand": player(0.12), "pickups": [bridge_force(0.01)], "body": body.HARPSICHORD, "strings": rows,
+        "hand": player(0.12), "body": body.HARPSICHORD, "strings": rows,
     }
 
 
@@ -92,7 +92,7 @@ def clavichord():
         "frets": {"count": 0},
         "exciters": [sourced({"name": "tangent", "kind": "tangent", "rise_s": 0.0025, "full_height_m": 0.0012, "height_exponent": 0.6,
                               "time_exponent": 0.7}, "chosen: peak velocities up to about 1 m/s")],
-        "hand": player(0.05, release_spread=1.5, pressure_semitones=0.6), "pickups": [bridge_force(0.01)], "body": body.CLAVICHORD,
+        "hand": player(0.05, release_spread=1.5, pressure_semitones=0.6), "body": body.CLAVICHORD,
         "strings": rows,
     }
 
@@ -128,7 +128,7 @@ def dulcimer():
         "frets": {"count": 0},
         "exciters": [hammer("wooden hammer", share(0.11), 0.004, 0.008, 2e6, 1.5, 0.05, 3.0, 1.2, given={"exponent": "chosen: Hertz's contact"}),
                      hammer("leather hammer", share(0.11), 0.006, 0.009, 3e7, 2.3, 0.2, 3.0, 1.2)],
-        "hand": player(0.3, damps=False), "pickups": [bridge_force(0.01)], "body": body.DULCIMER, "strings": rows,
+        "hand": player(0.3, damps=False), "body": body.DULCIMER, "strings": rows,
     }
 
 
@@ -169,7 +169,7 @@ def prepared():
         "soft_touches": [sourced({"name": "rubber wedge", **share(0.18), "width_m": 0.006, "damping_kg_per_s": 1.5, "strings": RUBBERS})],
         "exciters": [hammer("felt hammer", share(0.88), 0.008, 0.00297, 4.5e9, 2.5, 0.1, 5.0, 1.3,
                             given={"position_share": chaigne, "mass_kg": chaigne, "stiffness_N_per_m_p": chaigne, "exponent": chaigne})],
-        "hand": player(0.15), "pickups": [bridge_force(0.005)], "body": body.PIANO, "strings": rows,
+        "hand": player(0.15), "body": body.PIANO, "strings": rows,
     }
 
 

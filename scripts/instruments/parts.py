@@ -41,11 +41,6 @@ def hand(release_t60_s, places=(0.137, 0.31), palm_m=0.03, **more):
                     **more})
 
 
-def bridge_force(level):
-    return sourced({"quantity": "bridge_force", "level": level},
-                   "chosen: the direct share, which carries what lies above the modes of the body")
-
-
 def velocity_pickup(from_bridge_m, width_m, level, where, **more):
     given = {"position_from_bridge_m": "chosen: " + where}
     if "magnet_distance_m" in more:
