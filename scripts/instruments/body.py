@@ -1,0 +1,68 @@
+"""Bodies and soundboards as tables of modes: a few named resonances, then as many as a plate of that size has.
+
+The engine drives each mode, an oscillator of 1 kg, with the force on the bridge and hears its velocity. A mode's gain is
+therefore its radiation over its modal mass; the tables give it relative to the first resonance.
+"""
+import math
+
+from wire import rounded
+
+GOLDEN = (math.sqrt(5) - 1) / 2
+
+
+def scattered(index):
+    """Quasi-random in 0..1, the same on every run: fractional parts of multiples of the golden ratio."""
+    return (0.5 + index * GOLDEN) % 1.0
+
+
+def mode(frequency_hz, q, left, right):
+    return {"frequency_hz": rounded(frequency_hz), "t60_s": rounded(math.log(1000) * q / (math.pi * frequency_hz), 3),
+            "gain_left": rounded(left, 3), "gain_right": rounded(right, 3)}
+
+
+HIGHEST_HZ = 12000
+
+
+def plate_modes(low_hz, spacing_hz, widen_hz, loss_factor, gain, knee_hz):
+    """Modes of constant density up to widen_hz, then of a spacing that grows with frequency: there they overlap anyway.
+
+    Gains make the mean response flat from low_hz to knee_hz (radiation gains what mobility loses) and let it fall by
+    6 dB per octave above, where the bridge's mass takes over. Left and right hear each mode with weights and signs of
+    their own, so that the body sounds wide but sums to mono without holes on average.
+    """
+    modes, place, i = [], low_hz, 0
+    while place < HIGHEST_HZ:
+        step = spacing_hz * max(1.0, place / widen_hz)
+        f = place + step * scattered(i)
+        flat = math.sqrt(f / low_hz) * math.sqrt(max(1.0, f / widen_hz))
+        g = gain * flat * min(1.0, knee_hz / f)
+        sign = 1 if scattered(3 * i + 1) < 0.5 else -1
+        lean = 0.5 * (scattered(2 * i + 7) - 0.5)
+        modes.append(mode(f, 1 / loss_factor, sign * g * (0.75 + lean), sign * g * (0.75 - lean)))
+        place, i = place + step, i + 1
+    return modes
+
+
+def body(named, plate):
+    """named: (Hz, Q, gain) rows heard in the middle; plate: arguments of plate_modes."""
+    return [mode(f, q, g, g) for f, q, g in named] + plate_modes(*plate)
+
+
+# Classical guitar: first resonances in the order measured on many instruments (air near 100 Hz, first top plate near
+# 190 Hz: Christensen and Vistisen, JASA 68 (1980); Wright, thesis, Cardiff (1996)); these very numbers are chosen.
+CLASSICAL_GUITAR = body([(98, 15, 1.0), (187, 18, 1.3), (232, 25, 0.5), (290, 30, 0.35), (385, 30, 0.5), (475, 30, 0.3)],
+                        (520, 52, 2500, 0.030, 0.16, 2500))
+# Dreadnought, X-braced: larger and stiffer; chosen likewise.
+STEEL_GUITAR = body([(102, 18, 1.0), (193, 22, 1.3), (234, 28, 0.5), (330, 32, 0.4), (392, 35, 0.5), (480, 35, 0.3)],
+                    (520, 48, 2500, 0.024, 0.16, 3500))
+# Gourd and thin wooden face (sitar, tanpura): chosen.
+SITAR = body([(108, 12, 0.5), (196, 16, 1.0), (287, 20, 0.8), (420, 22, 0.7)], (480, 62, 2500, 0.030, 0.25, 4500))
+TANPURA = body([(92, 12, 0.7), (168, 16, 1.0), (243, 20, 0.8), (360, 22, 0.7)], (420, 58, 2500, 0.028, 0.25, 4500))
+# Shallow lute body of hard wood: chosen.
+BIWA = body([(190, 12, 0.6), (310, 15, 1.0), (445, 18, 0.9), (610, 20, 0.6)], (700, 70, 2500, 0.035, 0.30, 4000))
+# Harpsichord: Savage, Kottick, Hendrickson and Marshall, JASA 91 (1992), counted 36 soundboard modes up to 600 Hz, with a
+# sound output "reasonably flat" from 50 to 2000 Hz: that density and flatness; loss factor and positions are chosen.
+HARPSICHORD = body([(52, 20, 0.6), (76, 22, 0.8)], (88, 16.7, 1000, 0.025, 0.20, 3500))
+CLAVICHORD = body([(110, 18, 0.7), (205, 20, 1.0), (310, 22, 0.8)], (360, 45, 2500, 0.028, 0.25, 3500))
+DULCIMER = body([(96, 18, 0.7), (158, 20, 1.0), (225, 22, 0.8), (305, 25, 0.8)], (340, 50, 2500, 0.022, 0.25, 4500))
+PIANO = body([(49, 20, 0.8), (83, 22, 1.0)], (95, 24, 1200, 0.020, 0.25, 2000))
