@@ -126,8 +126,8 @@ INSTANTIATE_TEST_SUITE_P(
                            {set(9500, ParameterId::Legato, 1), set(9500, ParameterId::SlideTime, 0.03),
                             note_on(9600, 36, 0.6)}},
                     Change{"all sound off", {{9600, Type::AllSoundOff, 0, 0, 0}}}),
-    [](const auto& info) {
-        std::string name = info.param.name;
+    [](const auto& change) {
+        std::string name = change.param.name;
         for (char& c : name) c = c == ' ' ? '_' : c;
         return name;
     });
@@ -317,7 +317,11 @@ TEST(Tuning, SetsPitchesAndMovesFretsWhenAsked) {
 // ---------------------------------------------------------------------------------------------- storms
 
 TEST(Storm, BlockSizeDoesNotChangeABit) {
-    const auto events = test::storm(3, 12000, 300);
+    auto events = test::storm(3, 12000, 300);
+    events.push_back({11000, Type::SetParameter, 7, 0, 1, -1, ParameterId::Legato});
+    for (const int key : {45, 47, 44}) events.push_back(note_on(11000, key, 0.8, 7));
+    std::stable_sort(events.begin(), events.end(),
+                     [](const auto& a, const auto& b) { return a.frame < b.frame; });
     const auto performance = [&](std::size_t block) {
         InstrumentState state = make_instrument_state(small_model());
         const Played played = play(small_model(), state, events, 12000, block);
