@@ -133,6 +133,7 @@ inline std::vector<InstrumentEvent> storm(unsigned seed, std::size_t frames, std
                 const ParameterDeclaration& parameter = parameter_table()[below(parameter_count)];
                 event.parameter = parameter.id;
                 event.value = parameter_value(parameter, unit());
+                if (parameter.id == ParameterId::SlideTime) event.value *= 0.005;  // short enough to arrive
                 event.channel = static_cast<int>(below(4)) - 1;
                 break;
             }
