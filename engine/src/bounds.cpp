@@ -21,7 +21,7 @@ constexpr std::uint64_t excited_refresh_period = 8;
 void drop_weak_modes(const StringModel& model, StringState& state, const kernels::LargestBounds& largest) {
     const CertificateState& bounds = state.certificate;
     std::size_t active = state.active_modes;
-    while (active > 0 && bounds.speed[active - 1] <= lazy_threshold * largest.speed &&
+    while (active > state.excitation.modes && bounds.speed[active - 1] <= lazy_threshold * largest.speed &&
            bounds.extent[active - 1] <= lazy_threshold * largest.extent) {
         --active;
     }
@@ -105,7 +105,6 @@ std::uint64_t frames_until_refresh(const StringState& state) JAWARI_REALTIME {
 
 void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME {
     CertificateState& bounds = state.certificate;
-    if (is_excited(state)) state.active_modes = model.stride;
     const kernels::LargestBounds largest =
         kernels::mode_bounds(state.active_modes, model, state.displacement.data(), state.velocity.data(),
                              bounds.speed.data(), bounds.extent.data(), bounds.detour.data());
@@ -113,8 +112,8 @@ void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIM
     bounds.strongest_extent = std::max(bounds.strongest_extent, largest.extent);
     const bool finite =
         std::isfinite(largest.speed) && std::isfinite(largest.extent);  // else left to the frame's check
-    if (!is_excited(state) && finite) {
-        if (state.skipping.sleep && has_faded(state, largest)) {
+    if (finite) {
+        if (state.skipping.sleep && !is_excited(state) && has_faded(state, largest)) {
             fall_asleep(state);
             return;
         }
@@ -127,10 +126,21 @@ void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIM
     bounds.kicks = {};
 }
 
+void wake_excited_modes(StringState& state) JAWARI_REALTIME {
+    const std::size_t excited = state.excitation.modes;
+    if (excited <= state.active_modes) return;
+    CertificateState& bounds = state.certificate;
+    for (auto* array : {&bounds.speed, &bounds.extent, &bounds.detour}) {
+        std::fill(array->begin() + static_cast<std::ptrdiff_t>(state.active_modes),
+                  array->begin() + static_cast<std::ptrdiff_t>(excited), 0.0);
+    }
+    state.active_modes = excited;
+}
+
 void add_kicks(const StringModel& model, StringState& state) JAWARI_REALTIME {
     const ExcitationState& excitation = state.excitation;
     KickState& kicks = state.certificate.kicks;
-    const std::size_t low = low_modes(model);
+    const std::size_t low = std::min(low_modes(model), excitation.modes);
     const auto first = static_cast<double>(excitation.elapsed);
     const auto last = static_cast<double>(excitation.elapsed + model.steps_per_frame);
     const auto bounds_of = [&](std::size_t begin, std::size_t end) {
@@ -138,7 +148,7 @@ void add_kicks(const StringModel& model, StringState& state) JAWARI_REALTIME {
                                      excitation.ramp.data(), first, last);
     };
     const kernels::ForceBounds of_low = bounds_of(0, low);
-    const kernels::ForceBounds of_high = bounds_of(low, model.stride);
+    const kernels::ForceBounds of_high = bounds_of(low, excitation.modes);
     const double frame_s = frame_length(model);
     const double largest_shape = bound_safety * std::sqrt(2 / model.length_m);
     const double scale = largest_shape * frame_s;

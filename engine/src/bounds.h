@@ -57,6 +57,9 @@ std::uint64_t frames_until_refresh(const StringState& state) JAWARI_REALTIME;
 /// and a faded string fall asleep.
 void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
+/// Modes that forces reach join the sums; until then they are at rest.
+void wake_excited_modes(StringState& state) JAWARI_REALTIME;
+
 /// Adds what the excitation of the coming frame does to the bounds.
 void add_kicks(const StringModel& model, StringState& state) JAWARI_REALTIME;
 

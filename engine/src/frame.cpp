@@ -116,6 +116,7 @@ bool advance_awake(const StringModel& model, StringState& state) {
         meter_highest(model, state);
         return is_finite(state);
     }
+    wake_excited_modes(state);
     if (needs_refresh(state)) refresh_bounds(model, state);
     if (state.asleep) return true;
     if (!fly(model, state)) return false;

@@ -150,7 +150,7 @@ std::vector<double> played(const StringModel& model, const Skipping& skipping, s
         const double now = force_at(static_cast<double>(n));
         const double next = force_at(static_cast<double>(n + 1));
         const double rate = (next - now) / static_cast<double>(model.steps_per_frame);
-        clear_excitation(model, state);
+        clear_excitation(state);
         if (now != 0 || next != 0) test::press(model, state, 0.7 * model.length_m, now, rate);
         samples.push_back(probe_value(model, state, 0, 1.0 / 48000));
         advance_frame(model, state);
@@ -195,7 +195,7 @@ std::vector<double> pushed_about(const StringModel& model, const Skipping& skipp
     std::vector<double> samples;
     const double strength_N = random.logarithmic(0.01, 3);
     for (std::size_t n = 0; n < frames; ++n) {
-        clear_excitation(model, state);
+        clear_excitation(state);
         if (n / 40 % 3 != 2) {
             for (int point = 0; point < 2; ++point) {
                 const double force_N = strength_N * random.uniform(-1, 1);
@@ -237,7 +237,7 @@ TEST(Skipping, StringsFallAsleepAndWake) {
     for (int round = 0; round < 2; ++round) {
         test::press(model, state, 0.2 * model.length_m, 1);
         advance_frame(model, state);
-        clear_excitation(model, state);
+        clear_excitation(state);
         EXPECT_FALSE(state.asleep);
         EXPECT_GT(energy(model, state), 0);
         for (int n = 0; n < 24000; ++n) advance_frame(model, state);  // 60 dB every 2400 frames
