@@ -193,3 +193,26 @@ class FlatObstacleString(UnitString):
         x = self.positions[None, :]
         shape = np.minimum(2 * np.minimum(x, 1 - x), 1 - 2 * np.abs(phase))
         return shape * np.power(float(self.restitution), np.floor(t + 0.5))
+
+
+class ThetaMode(FreeString):
+    """What the theta scheme makes of one lossless mode of 1 kHz, which is not the mode's own motion.
+
+    theta = 1/2 is the trapezoidal rule: the phase advances by 2 atan(omega h/2) a step instead of omega h, at full amplitude;
+    theta = 1 is backward Euler: a factor 1/(1 - i omega h) a step (E. Hairer and G. Wanner, "Solving Ordinary Differential
+    Equations II", section IV.3).
+    """
+
+    count = 1
+
+    def __init__(self, theta, rate):
+        super().__init__()
+        self.count, self.duration = 1, 0.01
+        self.omega, self.sigma, self.q0, self.v0 = np.array([2000 * np.pi]), np.zeros(1), np.array([1e-3]), np.zeros(1)
+        phase = self.omega[0] / rate
+        self.factor = np.exp(2j * np.arctan(phase / 2)) if theta == 0.5 else 1 / (1 - 1j * phase)
+        self.rate = rate
+
+    def samples(self):
+        steps = np.round(self.times() * self.rate)
+        return (1e-3 * np.real(self.factor**steps))[:, None] * shapes(1, self.length, self.positions).T

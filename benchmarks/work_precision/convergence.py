@@ -61,6 +61,9 @@ def single_string(build, rates, heights):
     free = closed_forms.FreeString()
     for method, options in [("exact", {})] + THETA:
         yield ladder(build, "free motion", method, options, [(r, free, "") for r in rates])
+    for method, options in THETA:
+        yield ladder(build, "theta scheme against its own closed form", method, options,
+                     [(r, closed_forms.ThetaMode(options["theta"], r), "") for r in rates[:3]])
     for e in (0.5, 1.0):
         impact = [closed_forms.SingleImpact(e, -0.5e-3 - 1e-5 * n) for n in range(heights)]
         for method, options in ENGINE[1:] + THETA:
@@ -91,6 +94,8 @@ def check(build):
         exact_scheme = method.startswith("exact")
         if case == "free motion" and exact_scheme or case == "flat obstacle" and method != "exact, paoli-schatzman":
             good = last["error"] < 1e-12
+        elif case.startswith("theta scheme"):
+            good = last["error"] < 1e-11
         elif case == "persistent contact" and exact_scheme or case == "free motion" and method == "theta 0.5":
             good = 1.8 < last["order"] < 2.1
         elif case == "point obstacle (Cabannes)":

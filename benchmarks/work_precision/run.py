@@ -98,7 +98,7 @@ def main():
         done = [pool.submit(run_series, scene, entry, options) for scene, entry in work]
         for number, future in enumerate(done, 1):
             for row in future.result():
-                writer.writerow({key: f"{value:.6g}" if isinstance(value, float) else value for key, value in row.items()})
+                writer.writerow({key: f"{value:.4g}" if isinstance(value, float) else value for key, value in row.items()})
             if sys.stderr.isatty():
                 print(f"\rwork-precision: {number} of {len(done)} series", end="", file=sys.stderr, flush=True)
     if sys.stderr.isatty():
