@@ -11,6 +11,7 @@
 #include "kernels.h"
 #include "near_kernels.h"
 #include "scene/read_scene.h"
+#include "flight_kernels.h"
 #include "skipping_kernels.h"
 
 namespace jawari::benchmarks {
@@ -63,32 +64,56 @@ void fma_peak(benchmark::State& state) {
     report(state, 0, static_cast<double>(done));
 }
 
-/// Free motion of all modes through 64 steps with state.range(0) gap rates.
-void run_modes(benchmark::State& state) {
+constexpr std::size_t run_steps = 64;
+
+/// All modes through run_steps steps, with the first rows of the frets as drivers or probes.
+struct RunOfModes {
     const StringModel& model = bass();
-    const auto probes = static_cast<std::size_t>(state.range(0));
     std::vector<const double*> rows;
-    for (std::size_t p = 0; p < probes; ++p) rows.push_back(model.contact_rows.data() + p * model.stride);
-    AlignedVector<double> rates(std::max<std::size_t>(probes, 1) * 64);
-    AlignedVector<double> lanes(std::max<std::size_t>(probes, 1) * kernels::steps_per_run * lane_padding);
+    AlignedVector<double> rates, impulses, lanes;
     AlignedVector<double> q = model.initial_displacement, v = model.initial_velocity;
     kernels::ModeRun run = kernels::frame_run(model);
-    run.probes = probes;
-    run.probe_rows = rows.data();
-    run.rates = rates.data();
-    run.rate_stride = 64;
-    run.lanes = lanes.data();
-    run.q = q.data();
-    run.v = v.data();
-    for (auto _ : state) {
-        std::copy(model.initial_displacement.begin(), model.initial_displacement.end(), q.begin());
-        std::copy(model.initial_velocity.begin(), model.initial_velocity.end(), v.begin());
-        kernels::run_modes(run);
-        benchmark::DoNotOptimize(rates.data());
-        benchmark::ClobberMemory();
+
+    RunOfModes(std::size_t drivers, std::size_t probes) {
+        const std::size_t count = std::max<std::size_t>(drivers + probes, 1);
+        for (std::size_t p = 0; p < count; ++p) rows.push_back(model.contact_rows.data() + p * model.stride);
+        rates.assign(count * run_steps, 0.0);
+        impulses.assign(count * run_steps, 1e-12);
+        lanes.assign(count * kernels::steps_per_run * lane_padding, 0.0);
+        run.drivers = drivers;
+        run.driver_rows = rows.data();
+        run.impulses = impulses.data();
+        run.impulse_stride = run_steps;
+        run.probes = probes;
+        run.probe_rows = rows.data();
+        run.rates = rates.data();
+        run.rate_stride = run_steps;
+        run.lanes = lanes.data();
+        run.q = q.data();
+        run.v = v.data();
     }
-    const double mode_steps = static_cast<double>(model.stride) * 64;
-    report(state, mode_steps, mode_steps * static_cast<double>(3 + probes));
+
+    void measure(benchmark::State& state) {
+        for (auto _ : state) {
+            std::copy(model.initial_displacement.begin(), model.initial_displacement.end(), q.begin());
+            std::copy(model.initial_velocity.begin(), model.initial_velocity.end(), v.begin());
+            kernels::run_modes(run);
+            benchmark::DoNotOptimize(rates.data());
+            benchmark::ClobberMemory();
+        }
+        const double mode_steps = static_cast<double>(model.stride * run_steps);
+        report(state, mode_steps, mode_steps * static_cast<double>(3 + run.drivers + run.probes));
+    }
+};
+
+/// Free motion with state.range(0) gap rates.
+void run_modes(benchmark::State& state) {
+    RunOfModes(0, static_cast<std::size_t>(state.range(0))).measure(state);
+}
+
+/// Motion under the impulses of state.range(0) contacts.
+void run_impulses(benchmark::State& state) {
+    RunOfModes(static_cast<std::size_t>(state.range(0)), 0).measure(state);
 }
 
 /// One frame of free flight.
@@ -130,7 +155,8 @@ void mode_bounds(benchmark::State& state) {
 }
 
 BENCHMARK(fma_peak);
-BENCHMARK(run_modes)->Arg(0)->Arg(1)->Arg(4)->Arg(20);
+BENCHMARK(run_modes)->Arg(0)->Arg(1)->Arg(2)->Arg(3)->Arg(4)->Arg(8)->Arg(20);
+BENCHMARK(run_impulses)->Arg(1)->Arg(2)->Arg(4)->Arg(20);
 BENCHMARK(fly);
 BENCHMARK(row_products);
 BENCHMARK(mode_bounds);

@@ -4,111 +4,17 @@
 #include <cmath>
 #include <limits>
 
+#include "bounds.h"
 #include "contact.h"
-#include "impact_law.h"
 #include "kernels.h"
-#include "skipping_kernels.h"
+#include "lookout.h"
 
 namespace jawari {
 namespace {
 
-/// Bounds are widened by this share, far above the rounding of the sums that make them.
-constexpr double safety = 1 + 1e-9;
-/// In free flight bounds only become tighter when computed anew; this often is enough.
-constexpr std::uint64_t refresh_period = 32;
+/// Frames that are planned at a time.
+constexpr std::uint64_t longest_plan = 16;
 constexpr std::uint64_t unknown_frame = std::numeric_limits<std::uint64_t>::max();
-
-double frame_length(const StringModel& model) {
-    return model.step_s * static_cast<double>(model.steps_per_frame);
-}
-
-double lookahead(const StringModel& model) {
-    return looks_ahead(model.law) ? model.step_s / 2 : 0.0;
-}
-
-std::size_t group_count(const StringModel& model) {
-    return model.certificate.group_begin.size() - 1;
-}
-
-/// Upper bound of the excitation's impulse over the coming frame [N s].
-double force_impulse(const StringModel& model, const StringState& state) {
-    if (!is_excited(state)) return 0;
-    const double last = state.force + state.force_rate * static_cast<double>(model.steps_per_frame);
-    return frame_length(model) * std::max(std::abs(state.force), std::abs(last));
-}
-
-double group_speed(const StringState& state, std::size_t g, double impulse) {
-    const CertificateState& bounds = state.certificate;
-    return bounds.group_speed[g] + safety * impulse * bounds.group_force_kick[g];
-}
-
-/// Modes behind the last one that matters are put to rest and leave the sums.
-void drop_weak_modes(const StringModel& model, StringState& state, const kernels::LargestBounds& largest) {
-    const CertificateState& bounds = state.certificate;
-    std::size_t active = state.active_modes;
-    while (active > 0 && bounds.speed[active - 1] <= lazy_threshold * largest.speed &&
-           bounds.extent[active - 1] <= lazy_threshold * largest.extent) {
-        --active;
-    }
-    active = std::min(padded(active), model.stride);
-    for (auto* array : {&state.displacement, &state.velocity, &state.velocity_before,
-                        &state.displacement_flown, &state.velocity_flown}) {
-        std::fill(array->begin() + static_cast<std::ptrdiff_t>(active), array->end(), 0.0);
-    }
-    state.active_modes = active;
-}
-
-bool has_faded(const StringState& state, const kernels::LargestBounds& largest) {
-    const CertificateState& bounds = state.certificate;
-    return largest.speed <= sleep_threshold * bounds.strongest_speed &&
-           largest.extent <= sleep_threshold * bounds.strongest_extent;
-}
-
-/// At rest, until a force or a moving obstacle wakes the string.
-void fall_asleep(StringState& state) {
-    for (auto* array : {&state.displacement, &state.velocity, &state.velocity_before,
-                        &state.displacement_flown, &state.velocity_flown}) {
-        std::fill(array->begin(), array->end(), 0.0);
-    }
-    std::fill(state.contact.frame_impulse.begin(), state.contact.frame_impulse.end(), 0.0);
-    state.active_modes = 0;
-    state.asleep = true;
-}
-
-/// kick_g = sum_k envelope_g kick |phi_k(x_force)|
-void set_force_kicks(const StringModel& model, StringState& state) {
-    CertificateState& bounds = state.certificate;
-    AlignedVector<double>& kick = bounds.detour;  // free at this moment
-    for (std::size_t k = 0; k < model.stride; ++k) {
-        kick[k] = model.certificate.kick[k] * std::abs(state.force_row[k]);
-    }
-    kernels::row_products(group_count(model), model.stride, model.stride, model.certificate.envelope.data(),
-                          kick.data(), bounds.group_force_kick.data());
-}
-
-void set_group_bounds(const StringModel& model, StringState& state) {
-    CertificateState& bounds = state.certificate;
-    const std::size_t groups = group_count(model);
-    const double* envelope = model.certificate.envelope.data();
-    const std::size_t n = state.active_modes;
-    kernels::row_products(groups, n, model.stride, envelope, bounds.speed.data(), bounds.group_speed.data());
-    kernels::row_products(groups, n, model.stride, envelope, bounds.detour.data(),
-                          bounds.group_detour.data());
-    kernels::row_products(groups, n, model.stride, envelope, bounds.extent.data(),
-                          bounds.group_clearance.data());
-    for (std::size_t g = 0; g < groups; ++g) {
-        bounds.group_speed[g] *= safety;
-        bounds.group_detour[g] *= safety;
-        double highest = -std::numeric_limits<double>::infinity();
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
-             ++c) {
-            highest = std::max(highest, state.contact.height[c]);
-            bounds.open_until[c] -= bounds.group_odometer[g];
-        }
-        bounds.group_odometer[g] = 0;
-        bounds.group_clearance[g] = -safety * bounds.group_clearance[g] - highest;
-    }
-}
 
 /// How far a group's gaps may move in the coming frame, the law's lookahead included.
 double frame_travel(const StringModel& model, double speed) {
@@ -120,16 +26,67 @@ bool stays_clear(const StringModel& model, const StringState& state, std::size_t
            state.certificate.group_clearance[g] > lookahead(model) * state.certificate.group_speed[g];
 }
 
-/// Contacts whose odometer certificate does not cover the frame; their gaps at its start are computed.
-std::size_t find_expired(const StringModel& model, StringState& state, double impulse) {
+/// Contacts that neither their odometer nor their group's clearance certifies for `frames` coming frames. The
+/// clearances of groups whose odometers run out are completed.
+std::size_t find_watched(const StringModel& model, StringState& state, double frames) {
+    CertificateState& bounds = state.certificate;
+    std::size_t groups = 0;
+    const auto limit_of = [&](std::size_t g) {
+        return bounds.group_odometer[g] +
+               bounds.group_speed[g] * (frame_length(model) * frames + lookahead(model));
+    };
+    for (std::size_t g = 0; g < group_count(model); ++g) {
+        const auto begin = bounds.open_until.begin();
+        const auto first = begin + static_cast<std::ptrdiff_t>(model.certificate.group_begin[g]);
+        const auto last = begin + static_cast<std::ptrdiff_t>(model.certificate.group_begin[g + 1]);
+        if (!(*std::min_element(first, last) > limit_of(g)))
+            bounds.expired_groups[groups++] = static_cast<std::uint32_t>(g);
+    }
+    complete_clearances(model, state, {bounds.expired_groups.data(), groups});
+    std::size_t watched = 0;
+    for (std::size_t i = 0; i < groups; ++i) {
+        const auto g = bounds.expired_groups[i];
+        if (stays_clear(model, state, g)) continue;
+        const double limit = limit_of(g);
+        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
+             ++c) {
+            if (!(bounds.open_until[c] > limit))
+                bounds.lookout.watched[watched++] = static_cast<std::uint32_t>(c);
+        }
+    }
+    return watched;
+}
+
+/// Groups with a contact that its odometer does not certify for the coming frame.
+std::size_t find_expired_groups(const StringModel& model, StringState& state, double impulse) {
     CertificateState& bounds = state.certificate;
     std::size_t expired = 0;
     for (std::size_t g = 0; g < group_count(model); ++g) {
+        const double limit = bounds.group_odometer[g] + frame_travel(model, group_speed(state, g, impulse));
+        const std::size_t end = model.certificate.group_begin[g + 1];
+        for (std::size_t c = model.certificate.group_begin[g]; c < end; ++c) {
+            if (bounds.open_until[c] > limit) continue;
+            bounds.expired_groups[expired++] = static_cast<std::uint32_t>(g);
+            break;
+        }
+    }
+    return expired;
+}
+
+/// Contacts that neither their odometer nor their group's clearance certifies.
+std::size_t find_expired(const StringModel& model, StringState& state, double impulse) {
+    CertificateState& bounds = state.certificate;
+    const std::size_t groups = find_expired_groups(model, state, impulse);
+    if (!is_excited(state)) complete_clearances(model, state, {bounds.expired_groups.data(), groups});
+    std::size_t expired = 0;
+    for (std::size_t i = 0; i < groups; ++i) {
+        const auto g = bounds.expired_groups[i];
         if (stays_clear(model, state, g)) continue;
         const double limit = bounds.group_odometer[g] + frame_travel(model, group_speed(state, g, impulse));
         for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
              ++c) {
-            if (!(bounds.open_until[c] > limit)) bounds.expired[expired++] = static_cast<std::uint32_t>(c);
+            if (bounds.open_until[c] > limit || bounds.certified_at[c] == state.frame) continue;
+            bounds.expired[expired++] = static_cast<std::uint32_t>(c);
         }
     }
     return expired;
@@ -155,11 +112,6 @@ void compute_frame_gaps(const StringModel& model, StringState& state, std::size_
     state.contact.candidate_count = 0;
 }
 
-std::size_t group_of(const StringModel& model, std::size_t contact) {
-    const std::size_t size = model.certificate.group_begin[1];
-    return contact / size;
-}
-
 /// Contacts that their gap at the frame's start and the speed bound certify leave the list.
 std::size_t certify_by_speed(const StringModel& model, StringState& state, std::size_t expired,
                              double impulse) {
@@ -175,6 +127,17 @@ std::size_t certify_by_speed(const StringModel& model, StringState& state, std::
     return left;
 }
 
+/// The detours of the groups that the first `left` expired contacts belong to.
+void complete_detours_of(const StringModel& model, StringState& state, std::size_t left) {
+    CertificateState& bounds = state.certificate;
+    std::size_t groups = 0;
+    for (std::size_t i = 0; i < left; ++i) {
+        const auto g = static_cast<std::uint32_t>(group_of(model, bounds.expired[i]));
+        if (groups == 0 || bounds.expired_groups[groups - 1] != g) bounds.expired_groups[groups++] = g;
+    }
+    complete_detours(model, state, {bounds.expired_groups.data(), groups});
+}
+
 /// Contacts that their gaps at both ends of the frame certify leave the list; the others are near.
 void certify_by_both_ends(const StringModel& model, StringState& state, std::size_t left, double impulse) {
     CertificateState& bounds = state.certificate;
@@ -187,7 +150,7 @@ void certify_by_both_ends(const StringModel& model, StringState& state, std::siz
         const std::size_t g = group_of(model, c);
         const double end_gap = bounds.frame_end_gap[c] - contact.height[c];
         const double dip = bounds.group_detour[g] + lookahead(model) * group_speed(state, g, impulse) +
-                           safety * impulse * bounds.group_force_kick[g] * frame_length(model);
+                           bound_safety * impulse * bounds.group_force_kick[g] * frame_length(model);
         bounds.margin[c] = std::min(bounds.frame_gap[c], end_gap) - dip;
         if (!(bounds.margin[c] > 0)) {
             contact.near[contact.near_count++] = c;
@@ -209,9 +172,9 @@ void set_margins(const StringModel& model, StringState& state, double impulse) {
         const bool clear = stays_clear(model, state, g);
         for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
              ++c) {
-            // Of contacts certified by both ends the margin is known; their odometer reading is the frame's
-            // end.
-            if (bounds.frame_gap_at[c] == state.frame + 1) continue;
+            // Of contacts certified by both ends or by the lookout the margin is known; their odometer
+            // reading is the frame's end.
+            if (bounds.frame_gap_at[c] == state.frame + 1 || bounds.certified_at[c] == state.frame) continue;
             bounds.margin[c] = clear ? bounds.group_clearance[g] - lookahead(model) * bounds.group_speed[g]
                                      : bounds.open_until[c] - limit;
         }
@@ -231,48 +194,23 @@ void set_group_margins(const StringModel& model, StringState& state) {
     }
 }
 
-/// What the step's impulses may move a group's gaps until the frame's end.
-double push_of_step(const StringModel& model, const StringState& state, std::size_t g) {
-    const ContactState& contact = state.contact;
-    const double* push = model.certificate.push.data() + g * model.contact_count;
-    double speed = 0;
-    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
-        const auto c = contact.candidates[i];
-        speed += push[c] * contact.impulse[c];
-    }
-    const double time_left = model.step_s * static_cast<double>(state.steps_left) + lookahead(model);
-    return safety * speed * time_left;
-}
-
 }  // namespace
 
-bool needs_refresh(const StringState& state) JAWARI_REALTIME {
-    return state.certificate.outdated || state.certificate.age >= refresh_period || is_excited(state);
-}
-
-void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME {
+void plan_free_frames(const StringModel& model, StringState& state) JAWARI_REALTIME {
     CertificateState& bounds = state.certificate;
-    if (is_excited(state)) {
-        state.active_modes = model.stride;
-        set_force_kicks(model, state);
+    std::uint64_t frames = std::min<std::uint64_t>(frames_until_refresh(state), longest_plan);
+    const bool finite = std::all_of(bounds.group_speed.begin(), bounds.group_speed.end(),
+                                    [](double speed) { return std::isfinite(speed); });
+    if (!finite) frames = 0;
+    if (frames > 0) {
+        const std::size_t watched = find_watched(model, state, static_cast<double>(frames));
+        if (watched > 0) frames = look_out(model, state, watched, frames);
     }
-    const kernels::LargestBounds largest =
-        kernels::mode_bounds(state.active_modes, model, state.displacement.data(), state.velocity.data(),
-                             bounds.speed.data(), bounds.extent.data(), bounds.detour.data());
-    bounds.strongest_speed = std::max(bounds.strongest_speed, largest.speed);
-    bounds.strongest_extent = std::max(bounds.strongest_extent, largest.extent);
-    const bool finite =
-        std::isfinite(largest.speed) && std::isfinite(largest.extent);  // else left to the frame's check
-    if (!is_excited(state) && finite) {
-        if (state.skipping.sleep && has_faded(state, largest)) {
-            fall_asleep(state);
-            return;
-        }
-        if (state.skipping.lazy) drop_weak_modes(model, state, largest);
-    }
-    set_group_bounds(model, state);
-    bounds.age = 0;
-    bounds.outdated = is_excited(state);
+    bounds.free_frames = frames;
+    bounds.age += frames;
+    const double time = frame_length(model) * static_cast<double>(frames);
+    for (std::size_t g = 0; g < group_count(model); ++g)
+        bounds.group_odometer[g] += bounds.group_speed[g] * time;
 }
 
 bool choose_near_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME {
@@ -285,43 +223,12 @@ bool choose_near_contacts(const StringModel& model, StringState& state) JAWARI_R
     compute_frame_gaps(model, state, expired);
     const std::size_t left = certify_by_speed(model, state, expired, impulse);
     if (left == 0) return false;
+    complete_detours_of(model, state, left);
     certify_by_both_ends(model, state, left, impulse);
     if (contact.near_count == 0) return false;
     set_margins(model, state, impulse);
     set_group_margins(model, state);
     return true;
-}
-
-bool admit_pushed_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    ContactState& contact = state.contact;
-    if (contact.near_count == model.contact_count) return false;
-    CertificateState& bounds = state.certificate;
-    bool admitted = false;
-    for (std::size_t g = 0; g < group_count(model); ++g) {
-        const double push = bounds.group_push[g] + push_of_step(model, state, g);
-        if (bounds.group_margin[g] > push) continue;
-        double smallest = std::numeric_limits<double>::infinity();
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
-             ++c) {
-            if (contact.is_near[c] != 0) continue;
-            if (bounds.margin[c] > push) {
-                smallest = std::min(smallest, bounds.margin[c]);
-                continue;
-            }
-            join_step(model, state, c);
-            admitted = true;
-        }
-        bounds.group_margin[g] = smallest;
-    }
-    return admitted;
-}
-
-void charge_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    CertificateState& bounds = state.certificate;
-    bounds.outdated = true;
-    if (state.contact.near_count == model.contact_count) return;
-    for (std::size_t g = 0; g < group_count(model); ++g)
-        bounds.group_push[g] += push_of_step(model, state, g);
 }
 
 void advance_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME {
@@ -352,8 +259,10 @@ void note_stepped_gaps(const StringModel& model, StringState& state) JAWARI_REAL
 void forget_bounds(StringState& state) JAWARI_REALTIME {
     CertificateState& bounds = state.certificate;
     bounds.outdated = true;
+    bounds.free_frames = 0;
     std::fill(bounds.open_until.begin(), bounds.open_until.end(), -std::numeric_limits<double>::infinity());
     std::fill(bounds.frame_gap_at.begin(), bounds.frame_gap_at.end(), unknown_frame);
+    std::fill(bounds.certified_at.begin(), bounds.certified_at.end(), unknown_frame);
     std::fill(bounds.group_odometer.begin(), bounds.group_odometer.end(), 0.0);
     std::fill(bounds.group_push.begin(), bounds.group_push.end(), 0.0);
 }

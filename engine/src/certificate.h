@@ -2,28 +2,22 @@
 // docs/certificate.md).
 #pragma once
 
+#include <cstddef>
+
 #include "jawari/model.h"
 #include "jawari/realtime.h"
 #include "jawari/state.h"
 
 namespace jawari {
 
-/// True if the bounds must be computed anew before the coming frame.
-bool needs_refresh(const StringState& state) JAWARI_REALTIME;
-
-/// Computes all bounds from the present state; lets weak modes leave the sums and a faded string fall asleep.
-void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME;
+/// Frames from now on, at least that many, in which no contact can close and no bound is needed anew.
+/// state.certificate.free_frames receives them, and the odometers move on by them at once. Bounds must be
+/// fresh.
+void plan_free_frames(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
 /// Chooses the contacts that may close in the coming frame as state.contact.near. displacement_flown holds
 /// the frame's end in free flight. Returns true if there are any.
 bool choose_near_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME;
-
-/// True if the impulses just found may reach contacts that are not near; they are then near, with their gaps
-/// in this step, and the step's impulses must be found again.
-bool admit_pushed_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME;
-
-/// Charges the step's impulses to the margins of the other contacts, for the rest of the frame.
-void charge_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
 /// Moves the odometers on by one frame.
 void advance_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME;

@@ -22,6 +22,11 @@ constexpr std::size_t contacts_per_group = 16;
 /// huge, not infinite, and what they bound is then simply evaluated.
 constexpr double smallest_factor = 1e-100;
 
+/// Largest singular value of [[a, b], [c, d]].
+double norm(double a, double b, double c, double d) {
+    return (std::hypot(a + d, b - c) + std::hypot(a - d, b + c)) / 2;
+}
+
 void set_flight(StringModel& model) {
     FlightModel& flight = model.flight;
     for (auto* array : {&flight.qq, &flight.qv, &flight.vq, &flight.vv, &flight.q_held, &flight.v_held,
@@ -43,20 +48,25 @@ void set_flight(StringModel& model) {
     }
 }
 
+/// docs/certificate.md, sections 1 and 2.
 void set_bounds_of_modes(StringModel& model) {
     CertificateModel& certificate = model.certificate;
     for (auto* array :
-         {&certificate.stiffness, &certificate.extent_q, &certificate.extent_v, &certificate.kick}) {
+         {&certificate.stiffness, &certificate.extent, &certificate.detour, &certificate.kick}) {
         array->assign(model.stride, 0.0);
     }
     const double h = model.step_s;
+    const double frame_s = h * static_cast<double>(model.steps_per_frame);
     for (std::size_t k = 0; k < model.mode_count; ++k) {
         const ExactFactors step = exact_factors(model.omega[k], model.sigma[k], h);
         const double s = std::max(step.s, smallest_factor);
         const double d = std::max(step.d, smallest_factor);
-        certificate.stiffness[k] = 4 * step.d / (s * square(h));
-        certificate.extent_q[k] = 2 * (1 + step.e) / s;
-        certificate.extent_v[k] = square(h) * (1 + step.e) / (2 * d);
+        const double mixed = std::sqrt(d * s);
+        const double lost = std::expm1(-2 * model.sigma[k] * h);                      // e - 1
+        const double acceleration = norm(-d, mixed, -mixed, 2 * lost - d) / (2 * h);  // at most this times r
+        certificate.stiffness[k] = 4 * d / (s * square(h));
+        certificate.extent[k] = h * std::sqrt((1 + step.e) / (2 * d));
+        certificate.detour[k] = std::min(square(frame_s) / 8 * acceleration, 2 * certificate.extent[k]);
         certificate.kick[k] = std::sqrt(2 * (1 + step.e) / s) * model.mobility[k];
     }
 }

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bounds.h"
 #include "certificate.h"
 #include "contact.h"
+#include "flight_kernels.h"
 #include "frame.h"
 #include "jawari/render.h"
 #include "kernels.h"
@@ -91,10 +93,21 @@ bool is_finite(const StringState& state) {
            kernels::all_finite(state.active_modes, state.velocity.data());
 }
 
+/// A string that is not finite restarts at rest.
+void start_again(const StringModel& model, StringState& state) {
+    put_to_rest(model, state);
+    state.counters.nonfinite_resets += 1;
+}
+
+/// Whether every contact must be evaluated at every step.
+bool is_uniform(const StringModel& model, const StringState& state) {
+    return !may_skip(model, state) || state.contact.moving_count > 0 ||
+           (!state.skipping.certificate && model.contact_count > 0);
+}
+
 /// Returns false if the state has become non-finite.
 bool advance_awake(const StringModel& model, StringState& state) {
-    const bool moving = state.contact.moving_count > 0;
-    if (!may_skip(model, state) || moving || (!state.skipping.certificate && model.contact_count > 0)) {
+    if (is_uniform(model, state)) {
         pass_uniformly(model, state);
         meter_highest(model, state);
         return is_finite(state);
@@ -114,19 +127,59 @@ bool advance_awake(const StringModel& model, StringState& state) {
     return true;
 }
 
+/// Wakes a string that is about to be moved, and forgets the last frame's impulses.
+void begin_frame(const StringModel& model, StringState& state) {
+    if (state.asleep) notice_change(model, state);
+    std::fill(state.contact.frame_impulse.begin(), state.contact.frame_impulse.end(), 0.0);
+}
+
 }  // namespace
+
+std::size_t frames_to_fly(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    if (state.asleep || is_uniform(model, state) || is_excited(state) || !state.skipping.flight) return 0;
+    CertificateState& bounds = state.certificate;
+    if (bounds.free_frames == 0) {
+        if (needs_refresh(state)) refresh_bounds(model, state);
+        if (state.asleep) return 0;
+        plan_free_frames(model, state);
+    }
+    return bounds.free_frames;
+}
+
+void fly_ahead(const StringModel& model, StringState& state, std::span<const Reading> readings, ReadAt when,
+               std::size_t first, std::size_t frames) JAWARI_REALTIME {
+    begin_frame(model, state);
+    kernels::FlightRun run;
+    run.modes = state.active_modes;
+    run.frames = frames;
+    run.flight = &model.flight;
+    run.q = state.displacement.data();
+    run.v = state.velocity.data();
+    run.readings = readings;
+    run.when = when;
+    run.first = first;
+    const bool finite = kernels::fly_frames(run);
+    state.certificate.free_frames -= frames;
+    state.counters.steps += frames * model.steps_per_frame;
+    state.counters.flown_frames += frames;
+    state.frame += frames;
+    if (finite) return;
+    start_again(model, state);
+    for (const Reading& reading : readings) std::fill_n(reading.out + first, frames, 0.0);
+}
 
 void advance_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
     if (sleeps_on(state)) {
         pass_asleep(model, state, 1);
         return;
     }
-    if (state.asleep) notice_change(model, state);
-    std::fill(state.contact.frame_impulse.begin(), state.contact.frame_impulse.end(), 0.0);
-    if (!advance_awake(model, state)) {
-        put_to_rest(model, state);
-        state.counters.nonfinite_resets += 1;
+    if (frames_to_fly(model, state) > 0) {
+        fly_ahead(model, state, {}, ReadAt::Start, 0, 1);
+        return;
     }
+    if (state.certificate.free_frames > 0) forget_bounds(state);  // an excitation ends what was planned
+    begin_frame(model, state);
+    if (!advance_awake(model, state)) start_again(model, state);
     if (state.asleep) {  // just now
         pass_asleep(model, state, 1);
     } else {

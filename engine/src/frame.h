@@ -1,11 +1,13 @@
-// Frames of a string that sleeps.
+// Frames that cost little: those of a string that sleeps, and those it flies through.
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "contact.h"
 #include "jawari/model.h"
 #include "jawari/realtime.h"
+#include "jawari/render.h"
 #include "jawari/state.h"
 
 namespace jawari {
@@ -21,5 +23,13 @@ inline void pass_asleep(const StringModel& model, StringState& state, std::size_
     state.counters.steps += frames * model.steps_per_frame;
     state.frame += frames;
 }
+
+/// Frames from now on in which the string flies and no contact can close; 0 if the coming one must be looked
+/// at. May put a faded string to sleep (and returns 0).
+std::size_t frames_to_fly(const StringModel& model, StringState& state) JAWARI_REALTIME;
+
+/// Crosses `frames` <= frames_to_fly() frames; the readings go to out[first], ...
+void fly_ahead(const StringModel& model, StringState& state, std::span<const Reading> readings, ReadAt when,
+               std::size_t first, std::size_t frames) JAWARI_REALTIME;
 
 }  // namespace jawari

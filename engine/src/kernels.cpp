@@ -26,15 +26,23 @@ void free_velocity(std::size_t n, const double* HWY_RESTRICT carry, const double
     }
 }
 
+/// Four partial sums hide the latency of the additions.
 double row_product(std::size_t n, const double* HWY_RESTRICT row, const double* HWY_RESTRICT x) {
     const Lanes d;
-    Vec sum = hn::Zero(d);
-    for (std::size_t k = 0; k < n; k += hn::Lanes(d))
-        sum = hn::MulAdd(hn::Load(d, row + k), hn::Load(d, x + k), sum);
-    return hn::GetLane(hn::SumOfLanes(d, sum));
+    const std::size_t lanes = hn::Lanes(d);
+    Vec s0 = hn::Zero(d), s1 = hn::Zero(d), s2 = hn::Zero(d), s3 = hn::Zero(d);
+    std::size_t k = 0;
+    for (; k + 4 * lanes <= n; k += 4 * lanes) {
+        s0 = hn::MulAdd(hn::Load(d, row + k), hn::Load(d, x + k), s0);
+        s1 = hn::MulAdd(hn::Load(d, row + k + lanes), hn::Load(d, x + k + lanes), s1);
+        s2 = hn::MulAdd(hn::Load(d, row + k + 2 * lanes), hn::Load(d, x + k + 2 * lanes), s2);
+        s3 = hn::MulAdd(hn::Load(d, row + k + 3 * lanes), hn::Load(d, x + k + 3 * lanes), s3);
+    }
+    for (; k < n; k += lanes) s0 = hn::MulAdd(hn::Load(d, row + k), hn::Load(d, x + k), s0);
+    return hn::GetLane(hn::SumOfLanes(d, hn::Add(hn::Add(s0, s1), hn::Add(s2, s3))));
 }
 
-/// Four rows share each load of x. Every row is summed in the same order as by row_product.
+/// Four rows share each load of x.
 HWY_INLINE void four_row_products(std::size_t n, const double* HWY_RESTRICT row0,
                                   const double* HWY_RESTRICT row1, const double* HWY_RESTRICT row2,
                                   const double* HWY_RESTRICT row3, const double* HWY_RESTRICT x,

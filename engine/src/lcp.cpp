@@ -125,12 +125,23 @@ void solve_and_thin(const Problem& p) {
     for (std::size_t i = 0; i < work.active_count; ++i) p.lambda[work.active[i]] = work.solution[i];
 }
 
-void adopt_guess(const Problem& p) {
-    p.work.active_count = 0;
+/// The active set becomes the candidates with a positive impulse; the factor's rows that agree stay.
+void adopt_active_set(const Problem& p) {
+    LcpWorkspace& work = p.work;
+    std::size_t agreed = 0;
+    bool agrees = true;
     for (const auto c : p.candidates) {
-        if (p.lambda[c] > 0 && !append_active(p, c)) p.lambda[c] = 0;
+        if (p.lambda[c] <= 0) continue;
+        agrees = agrees && agreed < work.active_count && work.active[agreed] == c;
+        if (agrees) {
+            agreed += 1;
+            continue;
+        }
+        work.active_count = agreed;
+        if (!append_active(p, c)) p.lambda[c] = 0;
+        agreed = work.active_count;
     }
-    solve_and_thin(p);
+    work.active_count = agreed;
 }
 
 void update_residual(const Problem& p) {
@@ -156,6 +167,27 @@ std::size_t most_violated(const Problem& p) {
         worst = c;
     }
     return worst;
+}
+
+/// Contacts that touch mostly go on to touch: true if the contacts of the first guess are the solution's.
+bool last_set_holds(const Problem& p) {
+    LcpWorkspace& work = p.work;
+    adopt_active_set(p);
+    if (work.active_count == 0) return false;
+    solve_active(p);
+    for (std::size_t i = 0; i < work.active_count; ++i) {
+        if (!(work.solution[i] > 0)) return false;
+    }
+    for (std::size_t i = 0; i < work.active_count; ++i) p.lambda[work.active[i]] = work.solution[i];
+    update_residual(p);
+    return most_violated(p) == none;
+}
+
+void predict(const Problem& p) {
+    predict_by_gauss_seidel(p);
+    adopt_active_set(p);
+    solve_and_thin(p);
+    update_residual(p);
 }
 
 bool is_active(const LcpWorkspace& work, std::size_t contact) {
@@ -230,9 +262,10 @@ LcpOutcome solve_lcp(const ContactOperator& A, std::span<const double> r,
     for (const auto c : candidates) lowest = std::min(lowest, r[c]);
     p.tolerance = -1e-13 * lowest;
 
-    predict_by_gauss_seidel(p);
-    adopt_guess(p);
-    update_residual(p);
+    if (workspace.factored != A.values) workspace.active_count = 0;
+    workspace.factored = A.values;
+
+    if (!last_set_holds(p)) predict(p);
 
     LcpOutcome outcome;
     const std::size_t bound = 4 * workspace.capacity + 16;

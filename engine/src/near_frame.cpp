@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "bounds.h"
 #include "certificate.h"
 #include "contact.h"
 #include "kernels.h"
 #include "near_kernels.h"
 #include "response.h"
+#include "skipping_kernels.h"
 
 namespace jawari {
 namespace {
@@ -87,10 +89,9 @@ void spread_impulses(const StringModel& model, StringState& state, std::size_t n
         impulses_of(model, near, struck)[n] = impulse;
         for (std::size_t j = 0; j < contact.near_count; ++j) {
             const Response response = response_of(model, struck, contact.near[j]);
-            double* rates = near.rates.data() + j * model.response_stride + n;
-            for (std::size_t later = 1; later < model.steps_per_frame - n; ++later) {
-                rates[later] += impulse * (response.direct[later] - response.mirrored[later]);
-            }
+            kernels::add_difference(model.steps_per_frame - n - 1, impulse, response.direct + 1,
+                                    response.mirrored + 1,
+                                    near.rates.data() + j * model.response_stride + n + 1);
         }
     }
 }

@@ -1,23 +1,47 @@
 #include "jawari/render.h"
 
 #include <algorithm>
+#include <array>
 
+#include "flight_kernels.h"
 #include "frame.h"
 #include "jawari/energy.h"
-#include "kernels.h"
 
 namespace jawari {
 namespace {
 
-/// Strings do not act on one another, so each renders the whole block by itself; one that sleeps is silence.
+void read_all(const StringState& state, std::span<const Reading> readings, std::size_t at) JAWARI_REALTIME {
+    kernels::read(state.active_modes, readings, state.displacement.data(), state.velocity.data(), at);
+}
+
+/// Readings of a string's displacement and velocity probes; returns how many there are.
+std::size_t linear_probes(const StringModel& model, std::span<double* const> outputs,
+                          std::span<Reading> readings) JAWARI_REALTIME {
+    std::size_t count = 0;
+    for (std::size_t p = 0; p < outputs.size(); ++p) {
+        const Quantity quantity = model.probes[p].quantity;
+        if (quantity != Quantity::Displacement && quantity != Quantity::Velocity) continue;
+        readings[count++] = {model.probe_rows.data() + p * model.stride, quantity == Quantity::Velocity,
+                             outputs[p]};
+    }
+    return count;
+}
+
+/// Strings do not act on one another, so each renders the whole block by itself.
 void render_string(const StringModel& model, StringState& state, std::span<double* const> outputs,
                    std::size_t frames, double frame_s) JAWARI_REALTIME {
-    if (sleeps_on(state)) {
-        for (double* output : outputs) std::fill_n(output, frames, 0.0);
-        pass_asleep(model, state, frames);
+    std::array<Reading, limits::probes> storage;
+    const std::span<const Reading> readings(storage.data(), linear_probes(model, outputs, storage));
+    if (readings.size() == outputs.size()) {
+        advance_frames(model, state, readings, ReadAt::Start, frames);
         return;
     }
     for (std::size_t n = 0; n < frames; ++n) {
+        if (sleeps_on(state)) {
+            for (double* output : outputs) std::fill_n(output + n, frames - n, 0.0);
+            pass_asleep(model, state, frames - n);
+            return;
+        }
         for (std::size_t p = 0; p < outputs.size(); ++p)
             outputs[p][n] = probe_value(model, state, p, frame_s);
         advance_frame(model, state);
@@ -28,16 +52,16 @@ void render_string(const StringModel& model, StringState& state, std::span<doubl
 
 double probe_value(const StringModel& model, const StringState& state, std::size_t probe,
                    double frame_s) JAWARI_REALTIME {
-    const double* row = model.probe_rows.data() + probe * model.stride;
+    const Quantity quantity = model.probes[probe].quantity;
     double value = 0;
-    switch (model.probes[probe].quantity) {
+    switch (quantity) {
         case Quantity::Displacement:
-            kernels::row_products(1, state.active_modes, model.stride, row, state.displacement.data(),
-                                  &value);
+        case Quantity::Velocity: {
+            const Reading reading{model.probe_rows.data() + probe * model.stride,
+                                  quantity == Quantity::Velocity, &value};
+            read_all(state, {&reading, 1}, 0);
             break;
-        case Quantity::Velocity:
-            kernels::row_products(1, state.active_modes, model.stride, row, state.velocity.data(), &value);
-            break;
+        }
         case Quantity::ContactForce: {
             const auto contact = model.contact_of_description[model.probes[probe].contact];
             if (contact >= 0)
@@ -49,6 +73,27 @@ double probe_value(const StringModel& model, const StringState& state, std::size
             break;
     }
     return value;
+}
+
+void advance_frames(const StringModel& model, StringState& state, std::span<const Reading> readings,
+                    ReadAt when, std::size_t frames) JAWARI_REALTIME {
+    for (std::size_t n = 0; n < frames;) {
+        if (sleeps_on(state)) {
+            for (const Reading& reading : readings) std::fill_n(reading.out + n, frames - n, 0.0);
+            pass_asleep(model, state, frames - n);
+            return;
+        }
+        const std::size_t flying = std::min(frames_to_fly(model, state), frames - n);
+        if (flying > 0) {
+            fly_ahead(model, state, readings, when, n, flying);
+            n += flying;
+            continue;
+        }
+        if (when == ReadAt::Start) read_all(state, readings, n);
+        advance_frame(model, state);
+        if (when == ReadAt::End) read_all(state, readings, n);
+        ++n;
+    }
 }
 
 void render(const SceneModel& model, SceneState& state, std::span<double* const> outputs,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bounds.h"
 #include "certificate.h"
 #include "contact.h"
 #include "jawari/energy.h"
@@ -50,8 +51,18 @@ CertificateState make_certificate_state(const StringModel& model) {
     for (auto* array : {&bounds.open_until, &bounds.margin, &bounds.frame_gap, &bounds.frame_end_gap}) {
         array->assign(model.contact_count, 0.0);
     }
+    bounds.certified_at.assign(model.contact_count, 0);
+    LookoutState& lookout = bounds.lookout;
+    for (auto* array : {&lookout.displacement, &lookout.velocity})
+        array->assign(std::min(lookout_modes, model.stride), 0.0);
+    for (auto* array : {&lookout.group_detour, &lookout.group_overtones}) array->assign(groups, 0.0);
+    for (auto* array : {&lookout.gap, &lookout.gap_end}) array->assign(model.contact_count, 0.0);
+    lookout.watched.assign(model.contact_count, 0);
     bounds.frame_gap_at.assign(model.contact_count, 0);
     bounds.expired.assign(model.contact_count, 0);
+    for (auto* list : {&bounds.expired_groups, &bounds.missing_groups}) list->assign(groups, 0);
+    for (auto* flags : {&bounds.group_has_detour, &bounds.group_has_clearance, &bounds.group_has_lookout})
+        flags->assign(groups, 0);
     return bounds;
 }
 
@@ -140,6 +151,7 @@ void put_to_rest(const StringModel& model, StringState& state) noexcept {
 }
 
 void notice_change(const StringModel& model, StringState& state) noexcept {
+    state.lcp.factored = nullptr;
     state.active_modes = model.stride;
     state.asleep = false;
     choose_all_contacts(model, state);

@@ -1,11 +1,11 @@
 // One contact step, stage by stage (DESIGN of the stages: docs/model.md, "The time step").
 #include <algorithm>
 
-#include "certificate.h"
 #include "contact.h"
 #include "jawari/render.h"
 #include "kernels.h"
 #include "metering.h"
+#include "push.h"
 
 namespace jawari {
 namespace {

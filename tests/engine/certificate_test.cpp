@@ -5,6 +5,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
+#include "flight_kernels.h"
 #include "jawari/step_coefficients.h"
 #include "scenes.h"
 #include "skipping_kernels.h"
@@ -175,6 +176,7 @@ void expect_true_claims(const StringModel& model, std::size_t frames, const std:
                            state.displacement[k];
                 }
                 const double claim = bounds.open_until[c] - bounds.group_odometer[g];
+                if (bounds.free_frames > 0) continue;  // readings hold at the end of what is planned
                 ASSERT_LE(claim, static_cast<double>(gap) + 1e-13)
                     << what << ", frame " << n << ", contact " << c;
                 if (bounds.outdated) continue;  // impulses may have taken the string out of the clearance

@@ -40,10 +40,12 @@ struct ContactOperator {
     }
 };
 
-/// Storage for active sets of up to `capacity` contacts.
+/// Storage for active sets of up to `capacity` contacts. The factor outlives a solve: the next one of the
+/// same operator keeps what its first guess has in common.
 struct LcpWorkspace {
     std::size_t capacity = 0;
     std::size_t active_count = 0;
+    const double* factored = nullptr;   ///< values of the operator that the factor is of; null: of none
     std::vector<std::uint32_t> active;  ///< indices of the active contacts, in order of the factor's rows
     AlignedVector<double>
         factor;  ///< lower Cholesky factor of A over the active set, capacity x capacity, row-major

@@ -23,10 +23,10 @@ struct FlightModel {
 /// Weights of the gap certificate (docs/certificate.md). Arrays over modes unless said otherwise.
 struct CertificateModel {
     AlignedVector<double> stiffness;  ///< kappa = 4d/((1+e+A) h^2): r^2 = v^2 + kappa (q - h v/2)^2 [1/s^2]
+    AlignedVector<double> extent;     ///< |q| <= extent r [s]
     AlignedVector<double>
-        extent_q;  ///< a^2 = extent_q (q - h v/2)^2 + extent_v v^2 bounds q^2; 2(1+e)/(1+e+A)
-    AlignedVector<double> extent_v;  ///< h^2 (1+e)/(2d) [s^2]
-    AlignedVector<double> kick;      ///< rho w/mu: what an impulse on phi = 1 adds to r at most [1/kg m]
+        detour;  ///< q leaves the line between its values at a frame's ends by <= detour r [s]
+    AlignedVector<double> kick;  ///< rho w/mu: what an impulse on phi = 1 adds to r at most [1/kg m]
     std::vector<std::size_t> group_begin;  ///< first contact of each group, and the contact count at the end
     AlignedVector<double> envelope;        ///< max over a group's contacts of |phi_k|, groups x stride
     /// What 1 N s at contact c does to group g at most, groups x contact_count: how far a gap falls within a

@@ -19,6 +19,21 @@ void step(const StringModel& model, StringState& state) JAWARI_REALTIME;
 /// contacts, and one flight.
 void advance_frame(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
+/// A linear reading of a string: out[n] = sum_k row_k q_k, or v_k, for frame n of a block.
+struct Reading {
+    const double* row = nullptr;  ///< over modes, padded and aligned like the model's rows
+    bool of_velocity = false;
+    double* out = nullptr;
+};
+
+/// When a frame is read.
+enum class ReadAt { Start, End };
+
+/// `frames` output frames of one string like advance_frame(), read on the way: the same bits, but frames of
+/// free flight are crossed together. Asleep, it reads 0.
+void advance_frames(const StringModel& model, StringState& state, std::span<const Reading> readings,
+                    ReadAt when, std::size_t frames) JAWARI_REALTIME;
+
 /// Value of one probe at the state's time. `frame_s`: the output interval, over which contact force is
 /// averaged.
 double probe_value(const StringModel& model, const StringState& state, std::size_t probe,

@@ -75,6 +75,15 @@ struct ContactState {
     std::size_t moving_count = 0;
 };
 
+/// The low modes flown ahead, and what they show of contacts; see lookout.h.
+struct LookoutState {
+    AlignedVector<double> displacement, velocity;  ///< scratch over the low modes
+    std::vector<double> group_detour;     ///< of the low modes, as CertificateState::group_detour [m]
+    std::vector<double> group_overtones;  ///< what all other modes can displace a gap by [m]
+    std::vector<double> gap, gap_end;     ///< scratch per contact: of the low modes, at a frame's ends [m]
+    std::vector<std::uint32_t> watched;   ///< scratch: contacts that the odometer does not certify far enough
+};
+
 /// Bounds that hold until an impulse, a force or an outside change of state (docs/certificate.md).
 struct CertificateState {
     AlignedVector<double> speed;  ///< scratch over modes: r_k, bound of |v_k|
@@ -86,6 +95,8 @@ struct CertificateState {
     std::vector<double> group_detour;  ///< D: how far a gap dips below both its values at a frame's ends [m]
     std::vector<double>
         group_clearance;  ///< lower bound of the gaps for as long as the string flies freely [m]
+    std::vector<std::uint8_t> group_has_detour, group_has_clearance,
+        group_has_lookout;               ///< known since the last refresh
     std::vector<double> group_odometer;  ///< integral of R since the last refresh [m]
     std::vector<double>
         group_push;  ///< what the frame's impulses so far may have moved the gaps until its end [m]
@@ -97,11 +108,16 @@ struct CertificateState {
     std::vector<double> frame_gap;      ///< S q - b at the coming frame's start, where frame_gap_at says so
     std::vector<double> frame_end_gap;  ///< scratch: the same at the frame's end in free flight
     std::vector<std::uint64_t> frame_gap_at;  ///< frame at whose start frame_gap holds
-    std::vector<std::uint32_t> expired;       ///< scratch: contacts whose certificate has run out
-    std::uint64_t age = 0;                    ///< frames since the last refresh
-    bool outdated = true;                     ///< an impulse or force has raised the bounds
-    double strongest_speed = 0;               ///< largest r_k ever [m^(3/2)/s]
-    double strongest_extent = 0;              ///< largest |q_k| bound ever
+    std::vector<std::uint64_t> certified_at;  ///< frame for which the lookout certified it, with its margin
+    LookoutState lookout;
+    std::vector<std::uint32_t> expired;  ///< scratch: contacts whose certificate has run out
+    std::vector<std::uint32_t> expired_groups, missing_groups;  ///< scratch
+    std::size_t missing_count = 0;
+    std::uint64_t free_frames = 0;  ///< coming frames in which no contact can close, already in the odometers
+    std::uint64_t age = 0;          ///< frames since the last refresh
+    bool outdated = true;           ///< an impulse or force has raised the bounds
+    double strongest_speed = 0;     ///< largest r_k ever [m^(3/2)/s]
+    double strongest_extent = 0;    ///< largest |q_k| bound ever
 };
 
 /// Scratch of a frame solved in contact space; contacts x steps, rows response_stride apart.

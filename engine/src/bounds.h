@@ -1,0 +1,73 @@
+// How fast and how far a string can move from its present state on: the numbers that the certificate rests on
+// (docs/certificate.md, sections 1, 2 and 4).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "contact.h"
+#include "impact_law.h"
+#include "jawari/model.h"
+#include "jawari/realtime.h"
+#include "jawari/state.h"
+
+namespace jawari {
+
+/// Bounds are widened by this share, far above the rounding of the sums that make them.
+inline constexpr double bound_safety = 1 + 1e-9;
+
+/// An output frame [s].
+inline double frame_length(const StringModel& model) {
+    return model.step_s * static_cast<double>(model.steps_per_frame);
+}
+
+/// How far ahead of the step's end the law looks for candidates [s].
+inline double lookahead(const StringModel& model) {
+    return looks_ahead(model.law) ? model.step_s / 2 : 0.0;
+}
+
+/// Modes that the lookout flies ahead.
+inline constexpr std::size_t lookout_modes = 64;
+
+inline std::size_t group_of(const StringModel& model, std::size_t contact) {
+    return contact / model.certificate.group_begin[1];
+}
+
+inline std::size_t group_count(const StringModel& model) {
+    return model.certificate.group_begin.size() - 1;
+}
+
+/// Upper bound of the excitation's impulse over the coming frame [N s].
+inline double force_impulse(const StringModel& model, const StringState& state) {
+    if (!is_excited(state)) return 0;
+    const double last = state.force + state.force_rate * static_cast<double>(model.steps_per_frame);
+    return frame_length(model) * std::max(std::abs(state.force), std::abs(last));
+}
+
+/// Bound of the rate of a group's gaps over the coming frame, in which the excitation gives `impulse` [m/s].
+inline double group_speed(const StringState& state, std::size_t g, double impulse) {
+    const CertificateState& bounds = state.certificate;
+    return bounds.group_speed[g] + bound_safety * impulse * bounds.group_force_kick[g];
+}
+
+/// True if the bounds must be computed anew before the coming frame.
+bool needs_refresh(const StringState& state) JAWARI_REALTIME;
+
+/// Frames for which the bounds stay as they are if the string flies.
+std::uint64_t frames_until_refresh(const StringState& state) JAWARI_REALTIME;
+
+/// Computes the bounds of modes and the groups' speeds from the present state; lets weak modes leave the sums
+/// and a faded string fall asleep.
+void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME;
+
+/// group_clearance of the groups listed, where it is not known since the last refresh.
+void complete_clearances(const StringModel& model, StringState& state,
+                         std::span<const std::uint32_t> groups) JAWARI_REALTIME;
+
+/// group_detour of the groups listed, where it is not known since the last refresh.
+void complete_detours(const StringModel& model, StringState& state,
+                      std::span<const std::uint32_t> groups) JAWARI_REALTIME;
+
+}  // namespace jawari

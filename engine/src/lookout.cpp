@@ -1,0 +1,127 @@
+#include "lookout.h"
+
+#include <algorithm>
+
+#include "bounds.h"
+#include "flight_kernels.h"
+#include "kernels.h"
+
+namespace jawari {
+namespace {
+
+/// What the low modes alone may dip below both their values at a frame's ends, and the law's lookahead.
+double dip(const StringModel& model, const StringState& state, std::size_t g) {
+    const CertificateState& bounds = state.certificate;
+    return bounds.lookout.group_detour[g] + bounds.lookout.group_overtones[g] +
+           lookahead(model) * bounds.group_speed[g];
+}
+
+/// Bounds of the groups that watched contacts belong to, where they are not known since the last refresh.
+void complete_lookouts(const StringModel& model, StringState& state, std::size_t watched) {
+    CertificateState& bounds = state.certificate;
+    LookoutState& lookout = bounds.lookout;
+    const std::size_t low = lookout.displacement.size();
+    const std::size_t high = state.active_modes > low ? state.active_modes - low : 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < watched; ++i) {
+        const auto g = static_cast<std::uint32_t>(group_of(model, lookout.watched[i]));
+        if (bounds.group_has_lookout[g] != 0) continue;
+        bounds.group_has_lookout[g] = 1;
+        bounds.missing_groups[count++] = g;
+    }
+    const double* envelope = model.certificate.envelope.data();
+    kernels::indexed_row_products(bounds.missing_groups.data(), count, low, model.stride, envelope,
+                                  bounds.detour.data(), lookout.group_detour.data());
+    kernels::indexed_row_products(bounds.missing_groups.data(), count, high, model.stride, envelope + low,
+                                  bounds.extent.data() + low, lookout.group_overtones.data());
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto g = bounds.missing_groups[i];
+        lookout.group_detour[g] *= bound_safety;
+        lookout.group_overtones[g] *= bound_safety;
+    }
+}
+
+/// gap[c] <- S q - b of the watched contacts, low modes alone.
+void low_gaps(const StringModel& model, StringState& state, std::size_t watched, std::vector<double>& gap) {
+    LookoutState& lookout = state.certificate.lookout;
+    kernels::indexed_row_products(lookout.watched.data(), watched, lookout.displacement.size(), model.stride,
+                                  model.contact_rows.data(), lookout.displacement.data(), gap.data());
+    for (std::size_t i = 0; i < watched; ++i) {
+        const auto c = lookout.watched[i];
+        gap[c] -= state.contact.height[c];
+    }
+}
+
+void fly_low_modes(const StringModel& model, LookoutState& lookout) {
+    kernels::FlightRun run;
+    run.modes = lookout.displacement.size();
+    run.frames = 1;
+    run.flight = &model.flight;
+    run.q = lookout.displacement.data();
+    run.v = lookout.velocity.data();
+    kernels::fly_frames(run);
+}
+
+/// Margin of a watched contact over the frame between the two gaps of its low modes.
+double margin_of(const StringModel& model, const StringState& state, std::size_t c) {
+    const LookoutState& lookout = state.certificate.lookout;
+    return std::min(lookout.gap[c], lookout.gap_end[c]) - dip(model, state, group_of(model, c));
+}
+
+/// Contacts certified for the coming frame keep their margin, and a reading that holds at its end.
+void note_coming_frame(const StringModel& model, StringState& state, std::size_t watched) {
+    CertificateState& bounds = state.certificate;
+    const LookoutState& lookout = bounds.lookout;
+    for (std::size_t i = 0; i < watched; ++i) {
+        const auto c = lookout.watched[i];
+        const std::size_t g = group_of(model, c);
+        const double margin = margin_of(model, state, c);
+        if (!(margin > 0)) continue;
+        bounds.margin[c] = margin;
+        bounds.certified_at[c] = state.frame;
+        bounds.open_until[c] = bounds.group_odometer[g] + bounds.group_speed[g] * frame_length(model) +
+                               lookout.gap_end[c] - lookout.group_overtones[g];
+    }
+}
+
+/// Readings that hold when the odometers have moved on by `frames`.
+void note_end(const StringModel& model, StringState& state, std::size_t watched, std::size_t frames) {
+    CertificateState& bounds = state.certificate;
+    const LookoutState& lookout = bounds.lookout;
+    const double time = frame_length(model) * static_cast<double>(frames);
+    for (std::size_t i = 0; i < watched; ++i) {
+        const auto c = lookout.watched[i];
+        const std::size_t g = group_of(model, c);
+        bounds.open_until[c] = bounds.group_odometer[g] + bounds.group_speed[g] * time + lookout.gap[c] -
+                               lookout.group_overtones[g];
+    }
+}
+
+}  // namespace
+
+std::size_t look_out(const StringModel& model, StringState& state, std::size_t watched,
+                     std::size_t frames) JAWARI_REALTIME {
+    LookoutState& lookout = state.certificate.lookout;
+    complete_lookouts(model, state, watched);
+    std::copy_n(state.displacement.begin(), lookout.displacement.size(), lookout.displacement.begin());
+    std::copy_n(state.velocity.begin(), lookout.velocity.size(), lookout.velocity.begin());
+    low_gaps(model, state, watched, lookout.gap);
+    std::size_t certified = 0;
+    for (; certified < frames; ++certified) {
+        fly_low_modes(model, lookout);
+        low_gaps(model, state, watched, lookout.gap_end);
+        const bool open = std::all_of(lookout.watched.begin(),
+                                      lookout.watched.begin() + static_cast<std::ptrdiff_t>(watched),
+                                      [&](std::uint32_t c) { return margin_of(model, state, c) > 0; });
+        if (!open) break;
+        lookout.gap.swap(lookout.gap_end);
+    }
+    if (certified == 0) {
+        note_coming_frame(model, state, watched);
+    } else {
+        note_end(model, state, watched, certified);
+    }
+    return certified;
+}
+
+}  // namespace jawari

@@ -1,0 +1,20 @@
+// The far-sighted part of the certificate: the low modes of the coming frames exactly, all others by the
+// bound of their displacement (docs/certificate.md, section 3).
+#pragma once
+
+#include <cstddef>
+
+#include "jawari/model.h"
+#include "jawari/realtime.h"
+#include "jawari/state.h"
+
+namespace jawari {
+
+/// Of the `watched` contacts in state.certificate.lookout, how many coming frames, at most `frames`, none of
+/// them can close in. Their readings then hold at the end of these frames, when the odometers have moved on
+/// by them. If it is none, the contacts that cannot close in the coming frame have their margin, marked by
+/// certified_at.
+std::size_t look_out(const StringModel& model, StringState& state, std::size_t watched,
+                     std::size_t frames) JAWARI_REALTIME;
+
+}  // namespace jawari
