@@ -10,6 +10,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "flight_kernels.h"
 #include "jawari/jawari.h"
 #include "kernels.h"
 #include "near_kernels.h"

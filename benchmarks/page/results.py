@@ -64,13 +64,13 @@ def lost(rows, scene, restitution, rival, measure="error", largest=math.inf):
     return found
 
 
-def least_ratio(rows, scene, restitution, rival, measure="error", largest=math.inf):
-    """Smallest of the rival's cost over ours at equal error; None if the rival has no finite run below `largest`."""
-    ours = select(rows, scene, restitution, "exact")
+def least_ratio(rows, scene, rival, measure, largest):
+    """(smallest of the rival's cost over ours at equal error, its e) over all restitutions; None without such a run."""
     ratios = []
-    for row in frontier(select(rows, scene, restitution, rival), measure):
-        if row[measure] > largest or not math.isfinite(row[measure]):
-            continue
-        best = cheapest(ours, row[measure], measure)
-        ratios.append(row["cost"] / best["cost"] if best else 0.0)
+    for e in RESTITUTIONS:
+        ours = select(rows, scene, e, "exact")
+        for row in frontier(select(rows, scene, e, rival), measure):
+            if row[measure] <= largest:
+                best = cheapest(ours, row[measure], measure)
+                ratios.append((row["cost"] / best["cost"] if best else 0.0, e))
     return min(ratios) if ratios else None

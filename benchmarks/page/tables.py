@@ -83,38 +83,46 @@ def cost_at(level, measure="error"):
 
 
 def pareto(measure="error"):
-    """Least ratio of each rival's cost to ours at equal error."""
+    """Least ratio of each rival's cost to ours at equal error, for errors up to three levels, over all restitutions."""
     rows = results.work_precision()
-    limit = RIVAL_LIMIT if measure == "error" else DECIBEL_LIMIT
+    levels = (RIVAL_LIMIT, 0.1, 0.01) if measure == "error" else (DECIBEL_LIMIT, 1.0, 0.1)
+    show = percent if measure == "error" else lambda value: f"{value:g} dB"
     table = []
     for scene in results.SCENES:
-        for e in results.RESTITUTIONS:
-            cells = [scene, f"{e:g}"]
-            for rival in results.RIVALS:
-                ratio = results.least_ratio(rows, scene, e, rival, measure, limit)
-                cells.append("" if ratio is None else f"**{ratio:.2g}**" if ratio < 1 else f"{ratio:.3g}")
+        for rival, name in results.NAMES.items():
+            cells = [scene, name]
+            for level in levels:
+                found = results.least_ratio(rows, scene, rival, measure, level)
+                cells.append("none" if found is None else f"**{found[0]:.2g}**" if found[0] < 1 else f"{found[0]:.3g}")
             table.append(cells)
-    return markdown(["scene", "e", *results.NAMES.values()], table)
+    return markdown(["scene", "rival", *[f"errors up to {show(level)}" for level in levels]], table)
 
 
 def lost_runs(measure="error"):
-    """Every rival run that beats us, with the run of ours that is nearest."""
+    """Rivals that beat us somewhere: at which restitutions and errors, by how much."""
     rows = results.work_precision()
     limit = RIVAL_LIMIT if measure == "error" else DECIBEL_LIMIT
     show = percent if measure == "error" else lambda value: f"{value:.2g} dB"
     table = []
     for scene in results.SCENES:
-        for e in results.RESTITUTIONS:
-            for rival, name in results.NAMES.items():
-                for theirs, ours in results.lost(rows, scene, e, rival, measure, limit):
-                    mine = f"{figure(ours['cost'])} (`{ours['law']}`, {rate_text(ours['rate_hz'])})" if ours else "not reached"
-                    below = measure == "error" and theirs["error"] < bar_of(scene, e)
-                    table.append([scene, f"{e:g}", f"{name}, {theirs['parameter'] or theirs['law']}", rate_text(theirs["rate_hz"]),
-                                  show(theirs[measure]) + (" (below the reference's bar)" if below else ""),
-                                  figure(theirs["cost"]), mine])
+        for rival, name in results.NAMES.items():
+            found = [(e, theirs, ours) for e in results.RESTITUTIONS
+                     for theirs, ours in results.lost(rows, scene, e, rival, measure, limit)]
+            if not found:
+                continue
+            below = sum(measure == "error" and theirs["error"] < bar_of(scene, e) for e, theirs, _ in found)
+            # The clearest of them: the largest factor among the smaller half of the errors.
+            errors = sorted(theirs[measure] for _, theirs, _ in found)
+            e, theirs, ours = min((item for item in found if item[1][measure] <= errors[len(errors) // 2]),
+                                  key=lambda item: item[1]["cost"] / item[2]["cost"] if item[2] else 0)
+            mine = f"{figure(ours['cost'])} (`{ours['law']}`, {rate_text(ours['rate_hz'])})" if ours else "not reached"
+            table.append([scene, name, ", ".join(f"{value:g}" for value in sorted({item[0] for item in found})),
+                          len(found), below, f"{show(errors[0])} to {show(errors[-1])}",
+                          f"{show(theirs[measure])}: {figure(theirs['cost'])} ({theirs['parameter'] or theirs['law']}, {rate_text(theirs['rate_hz'])})",
+                          mine])
     if not table:
         return "No run of any rival is cheaper than ours at its error."
-    return markdown(["scene", "e", "rival", "its rate", "its error", "its CPU s per s", "ours at that error"], table)
+    return markdown(["scene", "rival", "e", "runs", "of these below the reference's bar", "errors", "for example (CPU s per s)", "ours at that error"], table)
 
 
 def verdict():
