@@ -1,4 +1,5 @@
 """Running one simulation, and how far two of them are apart. Used by the scripts beside it."""
+import functools
 import json
 import pathlib
 import subprocess
@@ -39,6 +40,7 @@ def simulate(build, scene, repeat=3, enough_s=1.0, **options):
         return stats, np.fromfile(out).reshape(stats["rows"], stats["probes"])
 
 
+@functools.cache
 def load_reference(scene, restitution):
     with np.load(ROOT / "benchmarks" / "reference" / f"{scene}.npz") as arrays:
         return arrays[f"e{restitution:g}"]

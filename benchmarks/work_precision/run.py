@@ -95,15 +95,20 @@ def main():
     out = sys.stdout if options.out == "-" else open(options.out, "w", newline="", encoding="utf-8")
     writer = csv.DictWriter(out, FIELDS, lineterminator="\n")
     writer.writeheader()
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        done = [pool.submit(run_series, scene, entry, options) for scene, entry in work]
+    pool = concurrent.futures.ThreadPoolExecutor(options.jobs)
+    done = [pool.submit(run_series, scene, entry, options) for scene, entry in work]
+    try:
         for number, future in enumerate(done, 1):
             for row in future.result():
                 writer.writerow({key: f"{value:.4g}" if isinstance(value, float) else value for key, value in row.items()})
             if sys.stderr.isatty():
                 print(f"\rwork-precision: {number} of {len(done)} series", end="", file=sys.stderr, flush=True)
-    if sys.stderr.isatty():
-        print(file=sys.stderr)
+    except KeyboardInterrupt:
+        pool.shutdown(cancel_futures=True)
+        sys.exit(130)
+    finally:
+        if sys.stderr.isatty():
+            print(file=sys.stderr)
 
 
 if __name__ == "__main__":
