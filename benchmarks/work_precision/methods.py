@@ -2,6 +2,8 @@
 import functools
 import json
 import pathlib
+import resource
+import signal
 import subprocess
 import tempfile
 
@@ -24,7 +26,11 @@ def program(build):
     return pathlib.Path(build) / "bin" / "trajectory"
 
 
-def simulate(build, scene, repeat=3, enough_s=1.0, **options):
+class GivenUp(RuntimeError):
+    """The program used more CPU time than it was allowed."""
+
+
+def simulate(build, scene, repeat=3, enough_s=1.0, cpu_limit_s=None, **options):
     """(statistics, samples as rows x probes) of one run; options are those of the program, `_` for `-`."""
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "samples"
@@ -33,7 +39,12 @@ def simulate(build, scene, repeat=3, enough_s=1.0, **options):
         for key, value in options.items():
             if value is not None:
                 command += ["--" + key.replace("_", "-"), repr(value) if isinstance(value, float) else str(value)]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        def limit():
+            if cpu_limit_s is not None:
+                resource.setrlimit(resource.RLIMIT_CPU, (cpu_limit_s, cpu_limit_s + 1))
+        done = subprocess.run(command, capture_output=True, text=True, check=False, preexec_fn=limit)
+        if done.returncode == -signal.SIGXCPU:
+            raise GivenUp(f"given up after {cpu_limit_s} CPU seconds")
         if done.returncode != 0:
             raise RuntimeError(f"{' '.join(map(str, command))}: {done.stderr.strip()}")
         stats = json.loads(done.stdout)
