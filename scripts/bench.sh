@@ -18,6 +18,7 @@ python=/usr/bin/python3  # Debian's: Siconos and matplotlib are packages of it
 bin=build/release/bin
 data=docs/benchmarks
 mkdir -p "$data"
+trap 'rm -f "$data"/*.part' EXIT
 
 # into NAME COMMAND...: its Markdown table becomes docs/benchmarks/NAME.csv, whole or not at all.
 into() {
