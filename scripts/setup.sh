@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Installs what building and testing need on Debian 12: the one list of every dependency.
-# Usage: scripts/setup.sh [--full]     --full: also what scripts/test.sh --full needs (lint, fuzzing)
+# Usage: scripts/setup.sh [--full] [--bench]
+#   --full: also what scripts/test.sh --full needs (lint, fuzzing, instruction counts)
+#   --bench: also what scripts/bench.sh needs (plots, instruction counts, other people's instruments)
 # Asks nothing; does nothing when all is there.
 set -euo pipefail
 
@@ -38,13 +40,23 @@ packages_full=(
     clang             # libFuzzer builds
     libclang-rt-14-dev # libFuzzer and sanitizer run times
     openttd-openmsx   # scripts/real_midi.py: music that nobody here wrote
+    valgrind          # instruction counts
+)
+packages_bench=(
+    valgrind          # instruction counts
+    python3-matplotlib # plots of docs/benchmarks.md
+    csound            # peer: plucked strings, prepared piano
+    libstk-dev        # peer: plucked strings
+    faust             # peer: physical models
 )
 
-case "${1:-}" in
-    "") ;;
-    --full) packages+=("${packages_full[@]}") ;;
-    *) echo "setup.sh: unknown argument '$1' (allowed: --full)" >&2; exit 2 ;;
-esac
+for argument in "$@"; do
+    case "$argument" in
+        --full) packages+=("${packages_full[@]}") ;;
+        --bench) packages+=("${packages_bench[@]}") ;;
+        *) echo "setup.sh: unknown argument '$argument' (allowed: --full, --bench)" >&2; exit 2 ;;
+    esac
+done
 
 if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
     echo "setup.sh: no apt here; install the equivalents of: ${packages[*]}" >&2

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds everything and runs all tests. Usage: scripts/test.sh [--full]
 #   --full: also a build with warnings as errors, lint, the tests under address, undefined-behaviour and thread
-#           sanitizers, and each fuzz target for ten seconds.
+#           sanitizers, each fuzz target for ten seconds, and instruction counts against their table.
 # Every stage runs even if one before it failed; the summaries of all test runs close the output.
 set -uo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." || exit 1
@@ -68,6 +68,7 @@ stage "setup" scripts/setup.sh "${setup_arguments[@]}" || exit 1
 stage "build (release)" build release && tests release
 
 if $full; then
+    stage "instruction counts" benchmarks/instructions/count.py
     stage "build (dev: warnings are errors)" build dev
     stage "lint" scripts/lint.sh
     # Oracles and soaks check numbers, which the release run has done; here only memory and threads are at stake.

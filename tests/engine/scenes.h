@@ -106,10 +106,16 @@ inline StringModel compiled_string(const SceneDescription& scene) {
     return model.value().strings.front();
 }
 
-/// A force of force_N that grows by rate_N a step at x, instead of what acted before.
-inline void press(const StringModel& model, StringState& state, double x, double force_N, double rate_N = 0) {
+/// phi_k(x) of all modes, padded.
+inline AlignedVector<double> shape_row(const StringModel& model, double x) {
     AlignedVector<double> row(model.stride, 0.0);
     for (std::size_t k = 0; k < model.mode_count; ++k) row[k] = mode_shape(k + 1, x, model.length_m);
+    return row;
+}
+
+/// A force of force_N that grows by rate_N a step at x, instead of what acted before.
+inline void press(const StringModel& model, StringState& state, double x, double force_N, double rate_N = 0) {
+    const AlignedVector<double> row = shape_row(model, x);
     clear_excitation(state);
     add_force(state, row.data(), model.stride, force_N, rate_N);
 }

@@ -1,0 +1,185 @@
+// Runs one piece of the engine a fixed number of times, for callgrind: everything outside of the loop is
+// excluded from the count.
+#include <hwy/highway.h>
+#include <valgrind/callgrind.h>
+
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <iterator>
+#include <numeric>
+#include <stdexcept>
+
+#include "flight_kernels.h"
+#include "jawari/jawari.h"
+#include "kernels.h"
+#include "near_kernels.h"
+#include "scene/read_scene.h"
+#include "skipping_kernels.h"
+
+namespace jawari::benchmarks {
+namespace {
+
+SceneModel compiled(const char* name, double contact_rate_hz, ImpactLaw law) {
+    auto scene = host::load_scene(name);
+    if (!scene) throw std::runtime_error(scene.error().message);
+    SceneDescription description = scene.value().description;
+    description.output_rate_hz = 48000;
+    description.contact_rate_hz = contact_rate_hz;
+    description.law = law;
+    auto model = compile(description);
+    if (!model) throw std::runtime_error(model.failure().line());
+    return std::move(model.value());
+}
+
+template <class Work>
+void counted(Work&& work) {
+    CALLGRIND_START_INSTRUMENTATION;
+    CALLGRIND_TOGGLE_COLLECT;
+    work();
+    CALLGRIND_TOGGLE_COLLECT;
+    CALLGRIND_STOP_INSTRUMENTATION;
+}
+
+/// `frames` output frames of a built-in scene after `before` uncounted ones.
+void render_scene(const char* name, double contact_rate_hz, ImpactLaw law, const Skipping& skipping,
+                  std::size_t before, std::size_t frames) {
+    const SceneModel model = compiled(name, contact_rate_hz, law);
+    SceneState state = make_state(model, Metering::Off, skipping);
+    const std::size_t room = std::max(before, frames);
+    std::vector<double> samples(model.probe_count * room);
+    std::vector<double*> outputs;
+    for (std::size_t p = 0; p < model.probe_count; ++p) outputs.push_back(samples.data() + p * room);
+    render(model, state, outputs, before);
+    counted([&] { render(model, state, outputs, frames); });
+}
+
+/// Free motion of the bass' modes through 64 steps with `probes` gap rates.
+void run_modes(std::size_t probes) {
+    const SceneModel scene = compiled("lab/bass", 48000.0 * 64, ImpactLaw::Signorini);
+    const StringModel& model = scene.strings[0];
+    std::vector<const double*> rows;
+    for (std::size_t p = 0; p < probes; ++p) rows.push_back(model.contact_rows.data() + p * model.stride);
+    AlignedVector<double> rates(std::max<std::size_t>(probes, 1) * 64);
+    AlignedVector<double> lanes(std::max<std::size_t>(probes, 1) * kernels::steps_per_run * lane_padding);
+    AlignedVector<double> q = model.initial_displacement, v = model.initial_velocity;
+    kernels::ModeRun run = kernels::frame_run(model);
+    run.probes = probes;
+    run.probe_rows = rows.data();
+    run.rates = rates.data();
+    run.rate_stride = 64;
+    run.lanes = lanes.data();
+    run.q = q.data();
+    run.v = v.data();
+    kernels::run_modes(run);  // dispatch is resolved at the first call
+    counted([&] { kernels::run_modes(run); });
+}
+
+void fly() {
+    const SceneModel scene = compiled("lab/bass", 2016000, ImpactLaw::Signorini);
+    const StringModel& model = scene.strings[0];
+    AlignedVector<double> q(model.stride), v(model.stride);
+    const auto once = [&] {
+        kernels::fly(model.stride, model.flight, model.initial_displacement.data(),
+                     model.initial_velocity.data(), q.data(), v.data());
+    };
+    once();
+    counted(once);
+}
+
+void row_products() {
+    const SceneModel scene = compiled("lab/bass", 2016000, ImpactLaw::Signorini);
+    const StringModel& model = scene.strings[0];
+    std::vector<double> out(model.contact_count);
+    const auto once = [&] {
+        kernels::row_products(model.contact_count, model.stride, model.stride, model.contact_rows.data(),
+                              model.initial_displacement.data(), out.data());
+    };
+    once();
+    counted(once);
+}
+
+void mode_bounds() {
+    const SceneModel scene = compiled("lab/bass", 2016000, ImpactLaw::Signorini);
+    const StringModel& model = scene.strings[0];
+    AlignedVector<double> speed(model.stride), extent(model.stride), detour(model.stride);
+    const auto once = [&] {
+        kernels::mode_bounds(model.stride, model, model.initial_displacement.data(),
+                             model.initial_velocity.data(), speed.data(), extent.data(), detour.data());
+    };
+    once();
+    counted(once);
+}
+
+/// A complementarity problem of 20 contacts, all of them pressed.
+void lcp() {
+    const SceneModel scene = compiled("lab/bass", 2016000, ImpactLaw::Signorini);
+    const StringModel& model = scene.strings[0];
+    const std::size_t n = model.contact_count;
+    const ContactOperator A{model.compliance.data(), model.contact_stride, nullptr};
+    std::vector<double> pressure(n), lambda(n), residual(n);
+    for (std::size_t c = 0; c < n; ++c)
+        pressure[c] = (c % 3 == 0 ? 1e-6 : -1e-6) * static_cast<double>(c + 1);
+    std::vector<std::uint32_t> candidates(n);
+    std::iota(candidates.begin(), candidates.end(), 0U);
+    LcpWorkspace workspace = make_lcp_workspace(n);
+    counted([&] { solve_lcp(A, pressure, candidates, lambda, residual, workspace); });
+}
+
+struct Entry {
+    const char* name;
+    std::function<void()> run;
+};
+
+const Entry entries[] = {
+    {"run_modes/0", [] { run_modes(0); }},
+    {"run_modes/1", [] { run_modes(1); }},
+    {"run_modes/4", [] { run_modes(4); }},
+    {"run_modes/20", [] { run_modes(20); }},
+    {"fly", fly},
+    {"row_products", row_products},
+    {"mode_bounds", mode_bounds},
+    {"solve_lcp/20", lcp},
+    {"bass, first 480 frames",
+     [] { render_scene("lab/bass", 2016000, ImpactLaw::Signorini, skip_all, 0, 480); }},
+    {"bass, 480 frames after 0.5 s",
+     [] { render_scene("lab/bass", 2016000, ImpactLaw::Signorini, skip_all, 24000, 480); }},
+    {"bass newton, first 480 frames",
+     [] { render_scene("lab/bass", 2016000, ImpactLaw::Newton, skip_all, 0, 480); }},
+    {"bass uniform, first 48 frames at 240 kHz",
+     [] { render_scene("lab/bass", 240000, ImpactLaw::Signorini, skip_nothing, 0, 48); }},
+    {"one-contact, first 480 frames",
+     [] { render_scene("lab/one-contact", 2016000, ImpactLaw::Signorini, skip_all, 0, 480); }},
+    {"fretless, first 120 frames at 240 kHz",
+     [] { render_scene("lab/fretless", 240000, ImpactLaw::Signorini, skip_all, 0, 120); }},
+};
+
+}  // namespace
+}  // namespace jawari::benchmarks
+
+int main(int argc, char** argv) {
+    using jawari::benchmarks::entries;
+    if (argc == 2 && std::strcmp(argv[1], "--list") == 0) {
+        for (const auto& entry : entries) std::puts(entry.name);
+        return 0;
+    }
+    if (argc == 2 && std::strcmp(argv[1], "--isa") == 0) {
+        const auto supported = static_cast<std::uint64_t>(hwy::SupportedTargets());
+        std::puts(hwy::TargetName(
+            static_cast<std::int64_t>(supported & (~supported + 1))));  // the best is the lowest bit
+        return 0;
+    }
+    try {
+        for (const auto& entry : entries) {
+            if (argc == 2 && std::strcmp(argv[1], entry.name) == 0) {
+                entry.run();
+                return 0;
+            }
+        }
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "kernel_loop: %s\n", error.what());
+        return 1;
+    }
+    std::fputs("usage: kernel_loop --list | --isa | NAME\n", stderr);
+    return 2;
+}
