@@ -22,11 +22,6 @@ constexpr std::size_t contacts_per_group = 16;
 /// huge, not infinite, and what they bound is then simply evaluated.
 constexpr double smallest_factor = 1e-100;
 
-/// Largest singular value of [[a, b], [c, d]].
-double norm(double a, double b, double c, double d) {
-    return (std::hypot(a + d, b - c) + std::hypot(a - d, b + c)) / 2;
-}
-
 void set_flight(StringModel& model) {
     FlightModel& flight = model.flight;
     for (auto* array : {&flight.qq, &flight.qv, &flight.vq, &flight.vv, &flight.q_held, &flight.v_held,
@@ -61,9 +56,8 @@ void set_bounds_of_modes(StringModel& model) {
         const ExactFactors step = exact_factors(model.omega[k], model.sigma[k], h);
         const double s = std::max(step.s, smallest_factor);
         const double d = std::max(step.d, smallest_factor);
-        const double mixed = std::sqrt(d * s);
-        const double lost = std::expm1(-2 * model.sigma[k] * h);                      // e - 1
-        const double acceleration = norm(-d, mixed, -mixed, 2 * lost - d) / (2 * h);  // at most this times r
+        const double lost = -std::expm1(-2 * model.sigma[k] * h);                            // 1 - e
+        const double acceleration = (lost + std::sqrt(square(lost + d) + d * s)) / (2 * h);  // times r
         certificate.stiffness[k] = 4 * d / (s * square(h));
         certificate.extent[k] = h * std::sqrt((1 + step.e) / (2 * d));
         certificate.detour[k] = std::min(square(frame_s) / 8 * acceleration, 2 * certificate.extent[k]);

@@ -78,8 +78,8 @@ void reserve(StringModel& bent, const StringSizes& sizes) {
                         &f.q_ramp,
                         &f.v_ramp,
                         &c.stiffness,
-                        &c.extent_q,
-                        &c.extent_v,
+                        &c.extent,
+                        &c.detour,
                         &c.kick,
                         &bent.rest_displacement}) {
         array->assign(sizes.stride, 0.0);

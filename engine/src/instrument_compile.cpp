@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "flight_kernels.h"
 #include "instrument_bend.h"
 #include "instrument_body.h"
 #include "instrument_exciter.h"

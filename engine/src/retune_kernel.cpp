@@ -118,9 +118,15 @@ void retune(const StoppedStringModel& base, const Retuning& retuning, StringMode
         CertificateModel& certificate = bent.certificate;
         keep(hn::Div(hn::Mul(hn::Set(d, 4.0), step.d), hn::Mul(step.s, h2)), from.certificate.stiffness,
              certificate.stiffness);
-        keep(hn::Mul(hn::Set(d, 2.0), quality), from.certificate.extent_q, certificate.extent_q);
-        keep(hn::Mul(hn::Mul(h2, hn::Set(d, 0.5)), hn::Mul(hn::Add(one, step.e), per_d)),
-             from.certificate.extent_v, certificate.extent_v);
+        const Vec extent =
+            hn::Sqrt(hn::Mul(hn::Mul(h2, hn::Set(d, 0.5)), hn::Mul(hn::Add(one, step.e), per_d)));
+        const Vec lost = hn::Sub(one, step.e);
+        const Vec lost_and_turned = hn::Add(lost, step.d);
+        const Vec acceleration =  // times 2h, docs/certificate.md, section 2
+            hn::Add(lost, hn::Sqrt(hn::MulAdd(lost_and_turned, lost_and_turned, hn::Mul(step.d, step.s))));
+        const Vec sagitta = hn::Mul(hn::Set(d, h * m * m / 16), acceleration);
+        keep(extent, from.certificate.extent, certificate.extent);
+        keep(hn::Min(sagitta, hn::Add(extent, extent)), from.certificate.detour, certificate.detour);
         keep(hn::Mul(hn::Sqrt(hn::Mul(hn::Set(d, 2.0), quality)), mobility), from.certificate.kick,
              certificate.kick);
         const Vec old_u = hn::Load(d, backward_u + k);

@@ -201,7 +201,8 @@ std::vector<double> pushed_about(const StringModel& model, const Skipping& skipp
                 const double force_N = strength_N * random.uniform(-1, 1);
                 const double rate_N =
                     strength_N * random.uniform(-1, 1) / static_cast<double>(model.steps_per_frame);
-                const AlignedVector<double> row = test::shape_row(model, random.uniform(0.1, 0.9) * model.length_m);
+                const AlignedVector<double> row =
+                    test::shape_row(model, random.uniform(0.1, 0.9) * model.length_m);
                 add_force(state, row.data(), model.stride, force_N, rate_N);
             }
         }
