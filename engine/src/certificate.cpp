@@ -30,16 +30,10 @@ std::size_t group_count(const StringModel& model) {
     return model.certificate.group_begin.size() - 1;
 }
 
-/// Upper bound of the excitation's impulse over the coming frame [N s].
-double force_impulse(const StringModel& model, const StringState& state) {
-    if (!is_excited(state)) return 0;
-    const double last = state.force + state.force_rate * static_cast<double>(model.steps_per_frame);
-    return frame_length(model) * std::max(std::abs(state.force), std::abs(last));
-}
-
-double group_speed(const StringState& state, std::size_t g, double impulse) {
+/// With what the frame's excitation adds at most.
+double group_speed(const StringState& state, std::size_t g) {
     const CertificateState& bounds = state.certificate;
-    return bounds.group_speed[g] + safety * impulse * bounds.group_force_kick[g];
+    return bounds.group_speed[g] + (is_excited(state) ? safety * bounds.group_force_kick[g] : 0.0);
 }
 
 /// Modes behind the last one that matters are put to rest and leave the sums.
@@ -75,12 +69,17 @@ void fall_asleep(StringState& state) {
     state.asleep = true;
 }
 
-/// kick_g = sum_k envelope_g kick |phi_k(x_force)|
+/// kick_g = sum_k envelope_g kick_k times the largest modal impulse of the coming frame
 void set_force_kicks(const StringModel& model, StringState& state) {
     CertificateState& bounds = state.certificate;
     AlignedVector<double>& kick = bounds.detour;  // free at this moment
+    const ExcitationState& excitation = state.excitation;
+    const auto first = static_cast<double>(excitation.elapsed);
+    const auto last = static_cast<double>(excitation.elapsed + model.steps_per_frame);
     for (std::size_t k = 0; k < model.stride; ++k) {
-        kick[k] = model.certificate.kick[k] * std::abs(state.force_row[k]);
+        const double largest = std::max(std::abs(excitation.held[k] + first * excitation.ramp[k]),
+                                        std::abs(excitation.held[k] + last * excitation.ramp[k]));
+        kick[k] = model.certificate.kick[k] * frame_length(model) * largest;
     }
     kernels::row_products(group_count(model), model.stride, model.stride, model.certificate.envelope.data(),
                           kick.data(), bounds.group_force_kick.data());
@@ -121,12 +120,12 @@ bool stays_clear(const StringModel& model, const StringState& state, std::size_t
 }
 
 /// Contacts whose odometer certificate does not cover the frame; their gaps at its start are computed.
-std::size_t find_expired(const StringModel& model, StringState& state, double impulse) {
+std::size_t find_expired(const StringModel& model, StringState& state) {
     CertificateState& bounds = state.certificate;
     std::size_t expired = 0;
     for (std::size_t g = 0; g < group_count(model); ++g) {
         if (stays_clear(model, state, g)) continue;
-        const double limit = bounds.group_odometer[g] + frame_travel(model, group_speed(state, g, impulse));
+        const double limit = bounds.group_odometer[g] + frame_travel(model, group_speed(state, g));
         for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
              ++c) {
             if (!(bounds.open_until[c] > limit)) bounds.expired[expired++] = static_cast<std::uint32_t>(c);
@@ -161,22 +160,20 @@ std::size_t group_of(const StringModel& model, std::size_t contact) {
 }
 
 /// Contacts that their gap at the frame's start and the speed bound certify leave the list.
-std::size_t certify_by_speed(const StringModel& model, StringState& state, std::size_t expired,
-                             double impulse) {
+std::size_t certify_by_speed(const StringModel& model, StringState& state, std::size_t expired) {
     CertificateState& bounds = state.certificate;
     std::size_t left = 0;
     for (std::size_t i = 0; i < expired; ++i) {
         const auto c = bounds.expired[i];
         const std::size_t g = group_of(model, c);
         bounds.open_until[c] = bounds.group_odometer[g] + bounds.frame_gap[c];
-        if (!(bounds.frame_gap[c] > frame_travel(model, group_speed(state, g, impulse))))
-            bounds.expired[left++] = c;
+        if (!(bounds.frame_gap[c] > frame_travel(model, group_speed(state, g)))) bounds.expired[left++] = c;
     }
     return left;
 }
 
 /// Contacts that their gaps at both ends of the frame certify leave the list; the others are near.
-void certify_by_both_ends(const StringModel& model, StringState& state, std::size_t left, double impulse) {
+void certify_by_both_ends(const StringModel& model, StringState& state, std::size_t left) {
     CertificateState& bounds = state.certificate;
     ContactState& contact = state.contact;
     kernels::indexed_row_products(bounds.expired.data(), left, state.active_modes, model.stride,
@@ -186,8 +183,9 @@ void certify_by_both_ends(const StringModel& model, StringState& state, std::siz
         const auto c = bounds.expired[i];
         const std::size_t g = group_of(model, c);
         const double end_gap = bounds.frame_end_gap[c] - contact.height[c];
-        const double dip = bounds.group_detour[g] + lookahead(model) * group_speed(state, g, impulse) +
-                           safety * impulse * bounds.group_force_kick[g] * frame_length(model);
+        const double force_kick = is_excited(state) ? safety * bounds.group_force_kick[g] : 0.0;
+        const double dip = bounds.group_detour[g] + lookahead(model) * group_speed(state, g) +
+                           force_kick * frame_length(model);
         bounds.margin[c] = std::min(bounds.frame_gap[c], end_gap) - dip;
         if (!(bounds.margin[c] > 0)) {
             contact.near[contact.near_count++] = c;
@@ -195,17 +193,17 @@ void certify_by_both_ends(const StringModel& model, StringState& state, std::siz
         }
         // Holds at the frame's end, when the odometer has moved on by the frame's travel.
         bounds.open_until[c] =
-            bounds.group_odometer[g] + group_speed(state, g, impulse) * frame_length(model) + end_gap;
+            bounds.group_odometer[g] + group_speed(state, g) * frame_length(model) + end_gap;
         bounds.frame_gap[c] = end_gap;
         bounds.frame_gap_at[c] = state.frame + 1;
     }
 }
 
 /// Margins of the contacts that are not near, for the case that impulses happen in this frame.
-void set_margins(const StringModel& model, StringState& state, double impulse) {
+void set_margins(const StringModel& model, StringState& state) {
     CertificateState& bounds = state.certificate;
     for (std::size_t g = 0; g < group_count(model); ++g) {
-        const double limit = bounds.group_odometer[g] + frame_travel(model, group_speed(state, g, impulse));
+        const double limit = bounds.group_odometer[g] + frame_travel(model, group_speed(state, g));
         const bool clear = stays_clear(model, state, g);
         for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
              ++c) {
@@ -279,15 +277,14 @@ bool choose_near_contacts(const StringModel& model, StringState& state) JAWARI_R
     ContactState& contact = state.contact;
     for (std::size_t i = 0; i < contact.near_count; ++i) contact.is_near[contact.near[i]] = 0;
     contact.near_count = 0;
-    const double impulse = force_impulse(model, state);
-    const std::size_t expired = find_expired(model, state, impulse);
+    const std::size_t expired = find_expired(model, state);
     if (expired == 0) return false;
     compute_frame_gaps(model, state, expired);
-    const std::size_t left = certify_by_speed(model, state, expired, impulse);
+    const std::size_t left = certify_by_speed(model, state, expired);
     if (left == 0) return false;
-    certify_by_both_ends(model, state, left, impulse);
+    certify_by_both_ends(model, state, left);
     if (contact.near_count == 0) return false;
-    set_margins(model, state, impulse);
+    set_margins(model, state);
     set_group_margins(model, state);
     return true;
 }
@@ -326,10 +323,8 @@ void charge_impulses(const StringModel& model, StringState& state) JAWARI_REALTI
 
 void advance_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME {
     CertificateState& bounds = state.certificate;
-    const double impulse = force_impulse(model, state);
     for (std::size_t g = 0; g < group_count(model); ++g) {
-        bounds.group_odometer[g] +=
-            group_speed(state, g, impulse) * frame_length(model) + bounds.group_push[g];
+        bounds.group_odometer[g] += group_speed(state, g) * frame_length(model) + bounds.group_push[g];
         bounds.group_push[g] = 0;
     }
     bounds.age += 1;

@@ -3,15 +3,12 @@
 
 #include <cstddef>
 
+#include "excitation.h"
 #include "jawari/model.h"
 #include "jawari/realtime.h"
 #include "jawari/state.h"
 
 namespace jawari {
-
-inline bool is_excited(const StringState& state) {
-    return state.force != 0 || state.force_rate != 0;
-}
 
 /// gap <- S q - b and gap_before <- the same one step earlier, for the near contacts.
 void place_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME;

@@ -68,16 +68,22 @@ StepWork impulse_work(const StringModel& model, const StringState& state) {
     return work;
 }
 
-/// The excitation is an impulse h F at one point, and works like one.
+/// The excitation is an impulse h F on every mode, and works like one.
 double force_work(const StringModel& model, const StringState& state) {
-    if (state.force == 0) return 0;
-    double now = 0;
-    double before = 0;
-    kernels::row_products(1, model.stride, model.stride, state.force_row.data(), state.velocity.data(), &now);
-    kernels::row_products(1, model.stride, model.stride, state.force_row.data(), state.velocity_before.data(),
-                          &before);
+    const ExcitationState& excitation = state.excitation;
+    if (!excitation.active) return 0;
     const double share = model.scheme == Scheme::Exact ? 0.5 : model.theta;
-    return model.step_s * state.force * (share * now + (1 - share) * before);
+    const auto power = [&](const AlignedVector<double>& force) {
+        double now = 0;
+        double before = 0;
+        kernels::row_products(1, model.stride, model.stride, force.data(), state.velocity.data(), &now);
+        kernels::row_products(1, model.stride, model.stride, force.data(), state.velocity_before.data(),
+                              &before);
+        return share * now + (1 - share) * before;
+    };
+    double work = power(excitation.held);
+    if (excitation.ramps) work += static_cast<double>(excitation.elapsed) * power(excitation.ramp);
+    return model.step_s * work;
 }
 
 }  // namespace

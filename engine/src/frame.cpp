@@ -35,9 +35,11 @@ bool fly(const StringModel& model, StringState& state) {
         kernels::fly(state.active_modes, model.flight, state.displacement.data(), state.velocity.data(),
                      state.displacement_flown.data(), state.velocity_flown.data());
     if (!is_excited(state)) return finite;
-    return kernels::add_force_response(state.active_modes, model.flight, state.force, state.force_rate,
-                                       state.force_row.data(), state.displacement_flown.data(),
-                                       state.velocity_flown.data()) &&
+    const ExcitationState& excitation = state.excitation;
+    return kernels::add_force_response(state.active_modes, model.flight, excitation.held.data(),
+                                       excitation.ramps ? excitation.ramp.data() : nullptr,
+                                       static_cast<double>(excitation.elapsed),
+                                       state.displacement_flown.data(), state.velocity_flown.data()) &&
            finite;
 }
 
@@ -50,7 +52,7 @@ void adopt_flight(StringState& state) {
 void pass_freely(const StringModel& model, StringState& state) {
     if (state.skipping.flight) {
         adopt_flight(state);
-        state.force += state.force_rate * static_cast<double>(model.steps_per_frame);
+        state.excitation.elapsed += model.steps_per_frame;
         state.counters.steps += model.steps_per_frame;
         state.counters.flown_frames += 1;
     } else {

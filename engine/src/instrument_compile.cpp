@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "excitation.h"
 #include "instrument_geometry.h"
 #include "instrument_validate.h"
 #include "jawari/compile.h"
@@ -95,14 +96,14 @@ void calibrate_finger(StoppedStringModel& stopped, const InstrumentModel& instru
     constexpr double trial_force_N = 1e-6;
     const StringModel& model = stopped.ringing;
     StringState state = make_string_state(model);
-    std::copy(stopped.pluck_row.begin(), stopped.pluck_row.end(), state.force_row.begin());
     const std::vector<double>& shape = instrument.pluck_shape;
     double height_m = 0;
     double energy_J = 0;
     for (std::size_t i = 0; i + 1 < shape.size(); ++i) {
-        state.force = trial_force_N * shape[i];
-        state.force_rate =
-            trial_force_N * (shape[i + 1] - shape[i]) / static_cast<double>(instrument.steps_per_frame);
+        clear_excitation(model, state);
+        add_force(
+            model, state, stopped.pluck_row.data(), trial_force_N * shape[i],
+            trial_force_N * (shape[i + 1] - shape[i]) / static_cast<double>(instrument.steps_per_frame));
         advance_frame(model, state);
         double lift_m = 0;
         for (std::size_t k = 0; k < model.stride; ++k) lift_m += stopped.pluck_row[k] * state.displacement[k];

@@ -168,6 +168,7 @@ std::vector<ContactDescription> contacts_at(const InstrumentDescription& instrum
     stop.from_nut_m = string.length_m - stop.length_m;
     stop.height_m = stop_height(instrument, index, frets, fret, stop.from_nut_m);
     std::vector<ContactDescription> contacts;
+    if (!instrument.contacts) return contacts;
     for (std::size_t j = fret + 1; j <= frets.height_m.size(); ++j) {
         const double to_bridge = speaking_length(instrument, string, j);
         if (!(to_bridge < stop.length_m)) continue;

@@ -88,6 +88,9 @@ Check check_string(const std::string& place, const InstrumentDescription& instru
     if (s.course && *s.course >= instrument.strings.size()) {
         return Failure{place + ".course", std::to_string(*s.course), "less than the number of strings"};
     }
+    if (s.release_t60_s != 0) {
+        if (auto failure = check_value(place + ".release_t60_s", s.release_t60_s, 0.005, 60)) return failure;
+    }
     const FretsDescription& frets = frets_of(instrument, s);
     if (auto failure = check_frets(s.frets ? place + ".frets." : "frets.", s, frets)) return failure;
     const int highest = s.open_note + semitones_of(frets, frets.count);
@@ -222,7 +225,12 @@ Check validate(const InstrumentDescription& instrument, double output_rate_hz) {
         const InstrumentStringDescription& string = instrument.strings[i];
         if (auto failure = check_string(indexed_place("strings", i), instrument, string)) return failure;
         const FretsDescription& frets = frets_of(instrument, string);
-        shortest_m = std::min(shortest_m, described_length(string, frets, frets.count));
+        const double string_m = described_length(string, frets, frets.count);
+        if (string.exciter_place) {
+            const std::string place = indexed_place("strings", i) + ".exciter_place";
+            if (auto failure = check_place(place, *string.exciter_place, string_m)) return failure;
+        }
+        shortest_m = std::min(shortest_m, string_m);
     }
     if (auto failure = check_obstacles(instrument)) return failure;
     if (auto failure = check_soft_touches(instrument, shortest_m)) return failure;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "excitation.h"
 #include "jawari/energy.h"
 #include "jawari/render.h"
 #include "kernels.h"
@@ -23,17 +24,13 @@ bool is_plucking(const InstrumentModel& model, const Voice& voice) {
 }
 
 /// The finger's force over the coming frame: linear between the values at its boundaries.
-void set_finger_force(const InstrumentModel& model, Voice& voice) {
-    StringState& state = voice.string;
-    if (!is_plucking(model, voice)) {
-        state.force = 0;
-        state.force_rate = 0;
-        return;
-    }
+void set_finger_force(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice) {
+    const StoppedStringModel& stopped = string.stopped[voice.fret];
+    clear_excitation(stopped.ringing, voice.string);
+    if (!is_plucking(model, voice)) return;
     const double* shape = model.pluck_shape.data() + voice.age;
-    state.force = voice.pluck_force_N * shape[0];
-    state.force_rate =
-        voice.pluck_force_N * (shape[1] - shape[0]) / static_cast<double>(model.steps_per_frame);
+    add_force(stopped.ringing, voice.string, stopped.pluck_row.data(), voice.pluck_force_N * shape[0],
+              voice.pluck_force_N * (shape[1] - shape[0]) / static_cast<double>(model.steps_per_frame));
 }
 
 void finish(Voice& voice, Counters& finished) {
@@ -66,7 +63,6 @@ void start_voice(const InstrumentModel& model, const InstrumentStringModel& stri
     voice.fading = false;
     voice.fade_frame = 0;
     voice.pluck_force_N = stopped.full_force_N * std::pow(velocity, model.height_exponent);
-    std::copy(stopped.pluck_row.begin(), stopped.pluck_row.end(), voice.string.force_row.begin());
     reset(stopped.ringing, voice.string);
 }
 
@@ -90,7 +86,7 @@ void fade_voice(Voice& voice) JAWARI_REALTIME {
 double advance_voice(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice,
                      Counters& finished) JAWARI_REALTIME {
     const StringModel& coefficients = string_model(string, voice);
-    set_finger_force(model, voice);
+    set_finger_force(model, string, voice);
     advance_frame(coefficients, voice.string);
     voice.age += 1;
     double output = 0;

@@ -1,6 +1,7 @@
 #include "near_frame.h"
 
 #include <algorithm>
+#include <array>
 
 #include "certificate.h"
 #include "contact.h"
@@ -10,6 +11,22 @@
 
 namespace jawari {
 namespace {
+
+/// force_rows and force_impulses <- the excitation of the coming frame, for unit mobility's run over modes.
+void drive_by_excitation(const StringModel& model, StringState& state) {
+    NearState& near = state.near_frame;
+    const ExcitationState& excitation = state.excitation;
+    std::fill(near.force_rows.begin(), near.force_rows.end(), 0.0);
+    kernels::add_impulse(model.stride, 1.0, model.mobility.data(), excitation.held.data(),
+                         near.force_rows.data());
+    kernels::add_impulse(model.stride, 1.0, model.mobility.data(), excitation.ramp.data(),
+                         near.force_rows.data() + model.stride);
+    for (std::size_t n = 0; n < model.steps_per_frame; ++n) {
+        near.force_impulses[n] = model.step_s;
+        near.force_impulses[model.response_stride + n] =
+            model.step_s * static_cast<double>(excitation.elapsed + n);
+    }
+}
 
 /// rates_free <- S v of free flight at each step, for the near contacts from `first` on.
 void run_free(const StringModel& model, StringState& state, std::size_t first) {
@@ -29,16 +46,12 @@ void run_free(const StringModel& model, StringState& state, std::size_t first) {
     run.lanes = near.lanes.data();
     run.q = near.displacement.data();
     run.v = near.velocity.data();
-    const double* force_row = near.force_row.data();
+    const std::array<const double*, 2> force_rows{near.force_rows.data(),
+                                                  near.force_rows.data() + model.stride};
     if (is_excited(state)) {
-        std::fill(near.force_row.begin(), near.force_row.end(), 0.0);
-        kernels::add_impulse(model.stride, 1.0, model.mobility.data(), state.force_row.data(),
-                             near.force_row.data());
-        for (std::size_t n = 0; n < model.steps_per_frame; ++n) {
-            near.force_impulses[n] = model.step_s * (state.force + static_cast<double>(n) * state.force_rate);
-        }
-        run.drivers = 1;
-        run.driver_rows = &force_row;
+        drive_by_excitation(model, state);
+        run.drivers = state.excitation.ramps ? 2 : 1;
+        run.driver_rows = force_rows.data();
         run.impulses = near.force_impulses.data();
         run.impulse_stride = model.response_stride;
     }
@@ -183,7 +196,7 @@ bool solve_near_frame(const StringModel& model, StringState& state) JAWARI_REALT
         place_gaps(model, state);
     } while (true);
     state.counters.steps += model.steps_per_frame;
-    state.force += state.force_rate * static_cast<double>(model.steps_per_frame);
+    state.excitation.elapsed += model.steps_per_frame;
     if (state.near_frame.struck_count == 0) return false;
     state.certificate.outdated = true;
     run_impulses(model, state);

@@ -35,20 +35,24 @@ bool fly(std::size_t n, const FlightModel& flight, const double* HWY_RESTRICT q,
     return hn::GetLane(hn::SumOfLanes(d, probe)) == 0;
 }
 
-bool add_force_response(std::size_t n, const FlightModel& flight, double force, double rate,
-                        const double* HWY_RESTRICT row, double* HWY_RESTRICT q, double* HWY_RESTRICT v) {
+bool add_force_response(std::size_t n, const FlightModel& flight, const double* HWY_RESTRICT held,
+                        const double* HWY_RESTRICT ramp, double elapsed, double* HWY_RESTRICT q,
+                        double* HWY_RESTRICT v) {
     const Lanes d;
-    const Vec f = hn::Set(d, force);
-    const Vec r = hn::Set(d, rate);
+    const Vec steps = hn::Set(d, elapsed);
     Vec probe = hn::Zero(d);
     for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
-        const Vec shape = hn::Load(d, row + k);
-        const Vec q_unit = hn::MulAdd(f, hn::Load(d, flight.q_held.data() + k),
-                                      hn::Mul(r, hn::Load(d, flight.q_ramp.data() + k)));
-        const Vec v_unit = hn::MulAdd(f, hn::Load(d, flight.v_held.data() + k),
-                                      hn::Mul(r, hn::Load(d, flight.v_ramp.data() + k)));
-        const Vec q_end = hn::MulAdd(shape, q_unit, hn::Load(d, q + k));
-        const Vec v_end = hn::MulAdd(shape, v_unit, hn::Load(d, v + k));
+        Vec force = hn::Load(d, held + k);
+        Vec q_end = hn::Load(d, q + k);
+        Vec v_end = hn::Load(d, v + k);
+        if (ramp != nullptr) {
+            const Vec rate = hn::Load(d, ramp + k);
+            force = hn::MulAdd(steps, rate, force);
+            q_end = hn::MulAdd(rate, hn::Load(d, flight.q_ramp.data() + k), q_end);
+            v_end = hn::MulAdd(rate, hn::Load(d, flight.v_ramp.data() + k), v_end);
+        }
+        q_end = hn::MulAdd(force, hn::Load(d, flight.q_held.data() + k), q_end);
+        v_end = hn::MulAdd(force, hn::Load(d, flight.v_held.data() + k), v_end);
         hn::Store(q_end, d, q + k);
         hn::Store(v_end, d, v + k);
         probe = hn::MulAdd(hn::Add(q_end, v_end), hn::Zero(d), probe);
@@ -113,9 +117,9 @@ bool fly(std::size_t n, const FlightModel& flight, const double* q, const double
     return HWY_DYNAMIC_DISPATCH(fly)(n, flight, q, v, q_out, v_out);
 }
 
-bool add_force_response(std::size_t n, const FlightModel& flight, double force, double rate,
-                        const double* row, double* q, double* v) noexcept {
-    return HWY_DYNAMIC_DISPATCH(add_force_response)(n, flight, force, rate, row, q, v);
+bool add_force_response(std::size_t n, const FlightModel& flight, const double* held, const double* ramp,
+                        double elapsed, double* q, double* v) noexcept {
+    return HWY_DYNAMIC_DISPATCH(add_force_response)(n, flight, held, ramp, elapsed, q, v);
 }
 
 LargestBounds mode_bounds(std::size_t n, const StringModel& model, const double* q, const double* v,

@@ -11,10 +11,10 @@ namespace jawari::kernels {
 bool fly(std::size_t n, const FlightModel& flight, const double* q, const double* v, double* q_out,
          double* v_out) noexcept;
 
-/// Adds the response to a force F + rate n (n = 0..m-1) on `row` to the frame's end. Returns false if a
-/// result is not finite.
-bool add_force_response(std::size_t n, const FlightModel& flight, double force, double rate,
-                        const double* row, double* q, double* v) noexcept;
+/// Adds the response to modal forces held + elapsed ramp + ramp n (n = 0..m-1) to the frame's end. Returns
+/// false if a result is not finite. Without a ramp, `ramp` is null.
+bool add_force_response(std::size_t n, const FlightModel& flight, const double* held, const double* ramp,
+                        double elapsed, double* q, double* v) noexcept;
 
 struct LargestBounds {
     double speed = 0;

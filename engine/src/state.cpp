@@ -61,9 +61,9 @@ NearState make_near_state(const StringModel& model) {
     const std::size_t count = model.contact_count;
     for (auto* array : {&near.rates_free, &near.rates, &near.impulses})
         array->assign(count * model.response_stride, 0.0);
-    near.force_impulses.assign(model.response_stride, 0.0);
+    near.force_impulses.assign(2 * model.response_stride, 0.0);
     near.lanes.assign(count * kernels::steps_per_run * lane_padding, 0.0);
-    near.force_row.assign(model.stride, 0.0);
+    near.force_rows.assign(2 * model.stride, 0.0);
     near.displacement.assign(model.stride, 0.0);
     near.velocity.assign(model.stride, 0.0);
     for (auto* array : {&near.gap, &near.gap_before, &near.impulse}) array->assign(model.contact_stride, 0.0);
@@ -78,7 +78,7 @@ StringState make_string_state(const StringModel& model, Metering metering, Skipp
     StringState state;
     for (auto* array :
          {&state.displacement, &state.velocity, &state.displacement_before, &state.velocity_before,
-          &state.displacement_flown, &state.velocity_flown, &state.force_row}) {
+          &state.displacement_flown, &state.velocity_flown, &state.excitation.held, &state.excitation.ramp}) {
         array->assign(model.stride, 0.0);
     }
     state.contact = make_contact_state(model);
@@ -117,8 +117,7 @@ void reset(const StringModel& model, StringState& state) noexcept {
     std::copy(model.initial_displacement.begin(), model.initial_displacement.end(),
               state.displacement.begin());
     std::copy(model.initial_velocity.begin(), model.initial_velocity.end(), state.velocity.begin());
-    state.force = 0;
-    state.force_rate = 0;
+    clear_excitation(model, state);
     state.frame = 0;
     state.certificate.strongest_speed = 0;
     state.certificate.strongest_extent = 0;
@@ -133,8 +132,7 @@ void reset(const StringModel& model, StringState& state) noexcept {
 void put_to_rest(const StringModel& model, StringState& state) noexcept {
     std::copy(model.rest_displacement.begin(), model.rest_displacement.end(), state.displacement.begin());
     std::fill(state.velocity.begin(), state.velocity.end(), 0.0);
-    state.force = 0;
-    state.force_rate = 0;
+    clear_excitation(model, state);
     place_obstacles(model, state.contact);
     notice_change(model, state);
 }

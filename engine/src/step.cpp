@@ -24,10 +24,13 @@ void predict_velocity(const StringModel& model, StringState& state) {
     kernels::free_velocity(state.active_modes, model.carry.data(), model.change.data(),
                            model.restoring.data(), state.displacement.data(), state.velocity_before.data(),
                            state.velocity.data());
-    if (state.force != 0) {
-        kernels::add_impulse(state.active_modes, model.step_s * state.force, model.mobility.data(),
-                             state.force_row.data(), state.velocity.data());
-    }
+    const ExcitationState& excitation = state.excitation;
+    if (!excitation.active) return;
+    kernels::add_impulse(state.active_modes, model.step_s, model.mobility.data(), excitation.held.data(),
+                         state.velocity.data());
+    if (!excitation.ramps) return;
+    kernels::add_impulse(state.active_modes, model.step_s * static_cast<double>(excitation.elapsed),
+                         model.mobility.data(), excitation.ramp.data(), state.velocity.data());
 }
 
 /// lambda of the step; contacts that it may push in become near, and the impulses are found again with them.
@@ -68,7 +71,7 @@ void step(const StringModel& model, StringState& state) JAWARI_REALTIME {
     advance_displacement(model, state);
     if (state.metering == Metering::Step) meter_step(model, state);
     accept_gaps(model, state);
-    state.force += state.force_rate;
+    state.excitation.elapsed += 1;
     state.counters.steps += 1;
     if (state.steps_left > 0) state.steps_left -= 1;
 }

@@ -55,14 +55,15 @@ void read_general(preset::Section& reader, InstrumentDescription& instrument) {
                                        {"paoli-schatzman", ImpactLaw::PaoliSchatzman}});
     instrument.play = reader.choice_or<PlayMode>(
         "play", instrument.play, {{"keyboard", PlayMode::Keyboard}, {"guitar", PlayMode::Guitar}});
+    instrument.contacts = reader.flag_or("contacts", instrument.contacts);
 }
 
 InstrumentDescription read_document(const Value& document, Problems& problems) {
     check_schema(document, problems);
     preset::Section reader(
         document, "",
-        {"schema", "name", "gain", "contact_rate_min_hz", "mode_limit_hz", "studio", "law", "play", "frets",
-         "obstacles", "soft_touches", "exciters", "hand", "pickups", "body", "strings"},
+        {"schema", "name", "gain", "contact_rate_min_hz", "mode_limit_hz", "studio", "law", "play",
+         "contacts", "frets", "obstacles", "soft_touches", "exciters", "hand", "pickups", "body", "strings"},
         problems);
     InstrumentDescription instrument;
     read_general(reader, instrument);

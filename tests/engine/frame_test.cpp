@@ -141,9 +141,6 @@ INSTANTIATE_TEST_SUITE_P(Laws, SkippingOfLaw,
 std::vector<double> played(const StringModel& model, const Skipping& skipping, std::size_t frames,
                            Counters& counters) {
     StringState state = make_string_state(model, Metering::Off, skipping);
-    for (std::size_t k = 0; k < model.mode_count; ++k)
-        state.force_row[k] = mode_shape(k + 1, 0.7 * model.length_m, model.length_m);
-    notice_change(model, state);
     std::vector<double> samples;
     const double peak_N = 30;
     for (std::size_t n = 0; n < frames; ++n) {
@@ -153,8 +150,9 @@ std::vector<double> played(const StringModel& model, const Skipping& skipping, s
         };
         const double now = force_at(static_cast<double>(n));
         const double next = force_at(static_cast<double>(n + 1));
-        state.force = now;
-        state.force_rate = (next - now) / static_cast<double>(model.steps_per_frame);
+        const double rate = (next - now) / static_cast<double>(model.steps_per_frame);
+        clear_excitation(model, state);
+        if (now != 0 || next != 0) test::press(model, state, 0.7 * model.length_m, now, rate);
         samples.push_back(probe_value(model, state, 0, 1.0 / 48000));
         advance_frame(model, state);
     }
@@ -186,12 +184,10 @@ TEST(Skipping, StringsFallAsleepAndWake) {
     modes.damping = DecayTimePoints{{{{100, 0.05}, {1000, 0.05}}}};
     const StringModel model = test::compiled_string(scene);
     StringState state = make_string_state(model);
-    for (std::size_t k = 0; k < model.mode_count; ++k) state.force_row[k] = 1;
-    notice_change(model, state);
     for (int round = 0; round < 2; ++round) {
-        state.force = 1;
+        test::press(model, state, 0.2 * model.length_m, 1);
         advance_frame(model, state);
-        state.force = 0;
+        clear_excitation(model, state);
         EXPECT_FALSE(state.asleep);
         EXPECT_GT(energy(model, state), 0);
         for (int n = 0; n < 24000; ++n) advance_frame(model, state);  // 60 dB every 2400 frames

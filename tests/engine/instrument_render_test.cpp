@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bass_instrument.h"
+#include "excitation.h"
 #include "jawari/instrument_render.h"
 #include "jawari/render.h"
 
@@ -123,14 +124,15 @@ TEST(InstrumentRender, AVoiceIsTheCompiledStringUnderTheFingersForce) {
     const StoppedStringModel& stopped = model.strings[3].stopped[fret];
     const auto output = play({note_on(0, 43 + static_cast<int>(fret), 1)}, 1000);
     StringState state = make_string_state(stopped.ringing);
-    std::copy(stopped.pluck_row.begin(), stopped.pluck_row.end(), state.force_row.begin());
     for (std::size_t n = 0; n < 1000; ++n) {
         const bool plucking = n + 1 < model.pluck_shape.size();
-        state.force = plucking ? stopped.full_force_N * model.pluck_shape[n] : 0;
-        state.force_rate = plucking
-                               ? stopped.full_force_N * (model.pluck_shape[n + 1] - model.pluck_shape[n]) /
-                                     static_cast<double>(model.steps_per_frame)
-                               : 0;
+        clear_excitation(stopped.ringing, state);
+        if (plucking) {
+            const double* shape = model.pluck_shape.data() + n;
+            add_force(
+                stopped.ringing, state, stopped.pluck_row.data(), stopped.full_force_N * shape[0],
+                stopped.full_force_N * (shape[1] - shape[0]) / static_cast<double>(model.steps_per_frame));
+        }
         advance_frame(stopped.ringing, state);
         double expected = 0;
         for (std::size_t k = 0; k < stopped.ringing.mode_count; ++k)

@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "excitation.h"
 #include "jawari/jawari.h"
 #include "scenes.h"
 
@@ -130,6 +131,7 @@ struct Performance {
     SceneState state;
     std::vector<double> samples;
     std::vector<double*> outputs;
+    AlignedVector<double> force_row;
     static constexpr std::size_t block = 64;
 
     Performance(ImpactLaw law, Scheme scheme, Metering metering, Skipping skipping) {
@@ -148,6 +150,9 @@ struct Performance {
                                    {Quantity::Energy, 0, 0}};
         model = compile(scene).value();
         state = make_state(model, metering, skipping);
+        force_row.assign(model.strings[0].stride, 0.0);
+        for (std::size_t k = 0; k < model.strings[0].mode_count; ++k)
+            force_row[k] = mode_shape(k + 1, 0.1, model.strings[0].length_m);
         samples.assign(model.probe_count * block, 0.0);
         for (std::size_t p = 0; p < model.probe_count; ++p) outputs.push_back(samples.data() + p * block);
     }
@@ -157,12 +162,8 @@ struct Performance {
         const StringModel& string_model = model.strings[0];
         for (int n = 0; n < 6; ++n) render(model, state, outputs, block);
         move_contact(string_model, string, 5, 1e-3, 100);
-        for (std::size_t k = 0; k < string_model.mode_count; ++k) {
-            string.force_row[k] = mode_shape(k + 1, 0.1, string_model.length_m);
-        }
-        string.force = 0.1;
-        string.force_rate = 1e-4;
-        notice_change(string_model, string);
+        clear_excitation(string_model, string);
+        add_force(string_model, string, force_row.data(), 0.1, 1e-4);
         for (int n = 0; n < 3; ++n) render(model, state, outputs, block);
         // A solve without room is truncated; the workspace only shrinks.
         string.lcp.capacity = 1;

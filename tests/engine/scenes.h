@@ -6,6 +6,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "excitation.h"
 #include "jawari/jawari.h"
 
 namespace jawari::test {
@@ -103,6 +104,14 @@ inline StringModel compiled_string(const SceneDescription& scene) {
     auto model = compile(scene);
     if (!model) throw std::runtime_error(model.failure().line());
     return model.value().strings.front();
+}
+
+/// A force of force_N that grows by rate_N a step at x, instead of what acted before.
+inline void press(const StringModel& model, StringState& state, double x, double force_N, double rate_N = 0) {
+    AlignedVector<double> row(model.stride, 0.0);
+    for (std::size_t k = 0; k < model.mode_count; ++k) row[k] = mode_shape(k + 1, x, model.length_m);
+    clear_excitation(model, state);
+    add_force(model, state, row.data(), force_N, rate_N);
 }
 
 }  // namespace jawari::test

@@ -40,12 +40,10 @@ TEST_P(StateOfLaw, ResetPlaysTheSameBitsAgain) {
         for (std::size_t s = 0; s < 2; ++s) {
             StringState& string = state.strings[s];
             move_contact(model.strings[s], string, 0, 1e-3, 1000);
-            string.force = 0.3;
-            string.force_rate = 1e-5;
-            for (double& x : string.force_row) x = 0.1;
+            test::press(model.strings[s], string, 0.2, 0.3, 1e-5);
             rendered(model, state, 7);
             reset(model.strings[s], string);
-            EXPECT_EQ(string.force, 0);
+            EXPECT_FALSE(string.excitation.active);
             EXPECT_EQ(string.counters.steps, 0U);
         }
         state.frame = 0;
@@ -99,10 +97,10 @@ TEST(State, PutToRestRestsAgainstTheObstaclesAndStays) {
     StringState& string = state.strings[0];
     rendered(model, state, 200);
     const auto steps = string.counters.steps;
-    string.force = 1;
+    test::press(model.strings[0], string, 0.2, 1);
     move_contact(model.strings[0], string, 3, 2e-3, 50);
     put_to_rest(model.strings[0], string);
-    EXPECT_EQ(string.force, 0);
+    EXPECT_FALSE(string.excitation.active);
     EXPECT_EQ(string.counters.steps, steps);  // counters stay
     EXPECT_EQ(string.displacement, model.strings[0].rest_displacement);
     const auto samples = rendered(model, state, 500);

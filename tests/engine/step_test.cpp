@@ -198,12 +198,6 @@ double displacement_at(const StringModel& model, const StringState& state, doubl
     return u;
 }
 
-void press_at(const StringModel& model, StringState& state, double x, double force_N) {
-    for (std::size_t k = 0; k < model.mode_count; ++k)
-        state.force_row[k] = mode_shape(k + 1, x, model.length_m);
-    state.force = force_N;
-}
-
 TEST(Step, ConstantForceEndsInTheTriangleOfStatics) {
     // u(x) = F x (L - x_F)/(T L) left of the force, and the modes left out are worth at most 2 F L/(pi^2 T
     // N).
@@ -216,7 +210,7 @@ TEST(Step, ConstantForceEndsInTheTriangleOfStatics) {
         scene.theta = 0.75;
         const StringModel model = test::compiled_string(scene);
         StringState state = make_string_state(model);
-        press_at(model, state, at, F);
+        test::press(model, state, at, F);
         for (int n = 0; n < 12000; ++n) step(model, state);  // 50 time constants
         const double left_out = 2 * F * L / (pi * pi * T * static_cast<double>(modes));
         for (const double x : {0.1, 0.2, 0.3, 0.5, 0.7}) {
@@ -236,11 +230,10 @@ TEST(Step, ExcitationWorkIsMetered) {
         scene.theta = 0.6;
         const StringModel model = test::compiled_string(scene);
         StringState state = make_string_state(model, Metering::Step);
-        press_at(model, state, 0.2, 0);
-        state.force_rate = 1e-3;
+        test::press(model, state, 0.2, 0, 1e-3);
         for (int n = 0; n < 500; ++n) step(model, state);
-        EXPECT_NEAR(state.force, 0.5, 1e-12);
-        state.force_rate = -1e-3;
+        EXPECT_EQ(state.excitation.elapsed, 500U);
+        test::press(model, state, 0.2, 0.5, -1e-3);
         for (int n = 0; n < 400; ++n) step(model, state);
         const double now = energy(model, state);
         EXPECT_GT(now, 1e-7);
@@ -256,9 +249,8 @@ TEST(Step, SlowForceDoesTheWorkOfStatics) {
     SceneDescription scene = flexible_string(50, 48000);
     const StringModel model = test::compiled_string(scene);
     StringState state = make_string_state(model, Metering::Step);
-    press_at(model, state, 0.3, 0);
     const int steps = 24000;
-    state.force_rate = 0.5 / steps;
+    test::press(model, state, 0.3, 0, 0.5 / steps);
     for (int n = 0; n < steps; ++n) step(model, state);
     double compliance = 0;
     for (std::size_t k = 1; k <= 50; ++k) {

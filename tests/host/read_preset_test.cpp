@@ -15,7 +15,7 @@ namespace {
 
 const std::string valid_preset = R"({
   "schema": "jawari.preset/2", "comment": "allowed", "name": "one string", "gain": 0.5,
-  "contact_rate_min_hz": 200000, "mode_limit_hz": 9000, "law": "passive", "play": "guitar",
+  "contact_rate_min_hz": 200000, "mode_limit_hz": 9000, "law": "passive", "play": "guitar", "contacts": false,
   "studio": {"contact_rate_min_hz": 400000, "mode_limit_hz": 18000},
   "provenance": {"gain": "chosen by ear"},
   "exciters": [
@@ -38,7 +38,7 @@ const std::string valid_preset = R"({
   "body": [{"frequency_hz": 100, "t60_s": 0.5, "gain_left": 2, "gain_right": 3},
            {"frequency_hz": 200, "quality_factor": 30, "gain_left": 4}],
   "strings": [{"name": "E", "open_note": 28, "open_frequency_hz": 41.2, "length_m": 0.86, "linear_density_kg_per_m": 0.03,
-               "inharmonicity": 1e-4, "level": 0.75, "excitation": 1.5, "pan": -0.5, "course": 0,
+               "inharmonicity": 1e-4, "level": 0.75, "excitation": 1.5, "pan": -0.5, "course": 0, "exciter_place": {"position_share": 0.2}, "release_t60_s": 0.3,
                "damping": {"model": "t60", "points": [{"frequency_hz": 41, "t60_s": 10}, {"frequency_hz": 5000, "t60_s": 1}]}}]
 })";
 
@@ -73,6 +73,7 @@ TEST(ReadPreset, EveryKeyArrives) {
     EXPECT_EQ(i.studio->mode_limit_hz, 18000);
     EXPECT_EQ(i.law, ImpactLaw::Passive);
     EXPECT_EQ(i.play, PlayMode::Guitar);
+    EXPECT_FALSE(i.contacts);
     EXPECT_EQ(i.frets.count, 2U);
     EXPECT_EQ(i.frets.height_m, (std::vector{-0.001, -0.002}));
     EXPECT_EQ(i.frets.restitution, 0.25);
@@ -87,6 +88,8 @@ TEST(ReadPreset, EveryKeyArrives) {
     EXPECT_EQ(s.level, 0.75);
     EXPECT_EQ(s.excitation, 1.5);
     EXPECT_EQ(s.pan, -0.5);
+    EXPECT_EQ(s.exciter_place.value().share, 0.2);
+    EXPECT_EQ(s.release_t60_s, 0.3);
     EXPECT_EQ(s.course, std::optional<std::size_t>(0));
     EXPECT_EQ(std::get<DecayTimePoints>(s.damping).points[1].t60_s, 1);
     EXPECT_EQ(message_of(valid_preset), "accepted");

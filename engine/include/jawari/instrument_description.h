@@ -47,7 +47,9 @@ struct InstrumentStringDescription {
     double pan = 0;         ///< -1 left to 1 right
     /// Strings with the same course sound together: one key plays them all, at the same fret. Empty: alone.
     std::optional<std::size_t> course;
-    std::optional<FretsDescription> frets;  ///< instead of the instrument's
+    std::optional<FretsDescription> frets;     ///< instead of the instrument's
+    std::optional<StringPlace> exciter_place;  ///< instead of the exciters'
+    double release_t60_s = 0;                  ///< instead of the hand's, 0.005 to 60; 0: the hand's
 };
 
 // ---------------------------------------------------------------------------------------------- obstacles
@@ -194,6 +196,7 @@ struct InstrumentDescription {
     std::optional<QualityDescription> studio;  ///< for renderings without haste; chosen by the host
     ImpactLaw law = ImpactLaw::Signorini;
     PlayMode play = PlayMode::Keyboard;
+    bool contacts = true;  ///< false: frets and obstacles are never struck, all else being equal
     FretsDescription frets;
     std::vector<ObstacleDescription> obstacles;      ///< at most limits::obstacles
     std::vector<SoftTouchDescription> soft_touches;  ///< at most limits::soft_touches on a string

@@ -90,7 +90,7 @@ struct CertificateState {
     std::vector<double>
         group_push;  ///< what the frame's impulses so far may have moved the gaps until its end [m]
     std::vector<double> group_margin;      ///< smallest margin of the group's contacts this frame [m]
-    std::vector<double> group_force_kick;  ///< speed that 1 N s of the excitation gives at most [1/kg]
+    std::vector<double> group_force_kick;  ///< speed that the frame's excitation gives at most [m/s]
     // per contact
     std::vector<double> open_until;     ///< odometer reading up to which the gap is certainly open [m]
     std::vector<double> margin;         ///< this frame's lower bound of the gap without impulses [m]
@@ -112,14 +112,24 @@ struct NearState {
     AlignedVector<double> impulses;  ///< lambda at each step, in the order of `struck`
     std::vector<std::uint32_t> struck;  ///< contacts with impulses in the frame; `struck_count` are valid
     std::size_t struck_count = 0;
-    AlignedVector<double> force_impulses;  ///< h F at each step
-    AlignedVector<double> force_row;       ///< (w/mu) phi(x) of the excitation
+    AlignedVector<double> force_impulses;  ///< h and h n at each step n, for the held force and its ramp
+    AlignedVector<double> force_rows;      ///< (w/mu) times the held force and its ramp, modes apart
     std::size_t first_impulse = 0;         ///< step of the frame's first impulse
     AlignedVector<double> lanes;
     AlignedVector<double> displacement, velocity;    ///< over modes
     AlignedVector<double> gap, gap_before, impulse;  ///< at the frame's start
     std::vector<const double*> rows;
     Counters counters;
+};
+
+/// Forces of the player: sums over points of F phi_k(x), so that any number of them is two rows over modes.
+/// The force at the coming step is held + elapsed ramp. Set by add_force(), excitation.h.
+struct ExcitationState {
+    AlignedVector<double> held;  ///< [N m^(-1/2)]
+    AlignedVector<double> ramp;  ///< its change per step [N m^(-1/2)]; all zero unless `ramps`
+    std::size_t elapsed = 0;     ///< steps since `held` was set
+    bool active = false;         ///< false: `held` is all zero
+    bool ramps = false;
 };
 
 struct StringState {
@@ -134,9 +144,7 @@ struct StringState {
     CertificateState certificate;
     NearState near_frame;
     Skipping skipping;
-    AlignedVector<double> force_row;  ///< phi_k(x) of the excitation [m^(-1/2)]
-    double force = 0;                 ///< excitation at the step [N]
-    double force_rate = 0;            ///< its change per step [N]
+    ExcitationState excitation;
     ContactState contact;
     LcpWorkspace lcp;
     EnergyMeter energy;
