@@ -126,8 +126,8 @@ def dulcimer():
                        "solid wire",
             "body": "chosen (scripts/instruments/body.py)"},
         "frets": {"count": 0},
-        "exciters": [hammer("wooden hammer", share(0.11), 0.004, 0.008, 2e6, 1.5, 0.05, 3.0, 1.2, given={"exponent": "chosen: Hertz's contact"}),
-                     hammer("leather hammer", share(0.11), 0.006, 0.009, 3e7, 2.3, 0.2, 3.0, 1.2)],
+        "exciters": [hammer("wooden hammer", share(0.15), 0.003, 0.002, 3e7, 1.5, 0.05, 3.0, 1.2, given={"exponent": "chosen: Hertz's contact"}),
+                     hammer("leather hammer", share(0.15), 0.005, 0.0025, 1e9, 2.3, 0.2, 3.0, 1.2)],
         "hand": player(0.3, damps=False), "body": body.DULCIMER, "strings": rows,
     }
 
