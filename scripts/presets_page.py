@@ -5,6 +5,7 @@ Text between <!-- NAME --> and <!-- /NAME --> is replaced by the tables of that 
 
 usage: presets_page.py [--check]                    tables only; --check: write nothing, fail if a page is out of date
        presets_page.py --images PROGRAM [PIECE...]  renders the demo pieces and draws docs/images/presets/*.png
+       presets_page.py --measure PROGRAM            fills the tables of docs/presets.md that tests/presets/check_*.py print
 """
 import argparse
 import json
@@ -83,8 +84,46 @@ def block(name):
     return f"{text}\n\n{strings_table(preset)}\n\n{provenance_table(preset)}\n"
 
 
-def filled(page):
-    return re.sub(r"<!-- ([a-z0-9-]+) -->\n.*?<!-- /\1 -->", lambda m: f"<!-- {m[1]} -->\n{block(m[1])}<!-- /{m[1]} -->", page, flags=re.S)
+def overview():
+    rows = ["| preset | name | strings | notes | exciters | obstacles |", "|---|---|---|---|---|---|"]
+    for path in sorted((ROOT / "presets" / "instruments").glob("*.json")):
+        preset = json.loads(path.read_text())
+        frets = [s.get("frets", preset.get("frets", {})) for s in preset["strings"]]
+        highest = max(s["open_note"] + f.get("count", 0) for s, f in zip(preset["strings"], frets))
+        exciters = sorted({e["kind"] for e in preset["exciters"]})
+        bodies = (["frets"] if any("height_m" in f for f in frets) else []) + sorted({o["name"].split(" ")[0] for o in preset.get("obstacles", [])})
+        rows.append(f"| `{path.stem}` | {preset['name']} | {len(preset['strings'])} | {min(s['open_note'] for s in preset['strings'])} to {highest} | "
+                    f"{', '.join(exciters)} | {', '.join(bodies)} |")
+    return "\n".join(rows) + "\n"
+
+
+def filled(page, texts):
+    """Replaces the marked blocks of which `texts` has the text, or which bear a preset's name."""
+    def text_of(match):
+        name = match[1]
+        if name in texts:
+            text = texts[name]
+        elif (ROOT / "presets" / "instruments" / f"{name}.json").exists():
+            text = block(name)
+        else:
+            return match[0]
+        return f"<!-- {name} -->\n{text}<!-- /{name} -->"
+    return re.sub(r"<!-- ([a-z0-9-]+) -->\n.*?<!-- /\1 -->", text_of, page, flags=re.S)
+
+
+def measured(program):
+    """What the judging scripts print, as text for the marked blocks of docs/presets.md."""
+    texts = {}
+    with tempfile.TemporaryDirectory() as folder:
+        for name, script, extra in (("tuning", "check_tuning", []), ("tuning-contacts", "check_tuning", ["--contacts"]), ("levels", "check_levels", []),
+                                    ("buzz", "check_buzz", []), ("clicks", "check_clicks", [])):
+            table = pathlib.Path(folder) / name
+            run = subprocess.run([sys.executable, "-B", str(ROOT / "tests" / "presets" / f"{script}.py"), program, "--table", str(table), *extra],
+                                 check=False)
+            if run.returncode != 0:
+                print(f"presets_page.py: {script} found faults", file=sys.stderr)
+            texts[name] = table.read_text()
+    return texts
 
 
 def draw(program, pieces):
@@ -102,17 +141,20 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--images", metavar="PROGRAM")
+    parser.add_argument("--measure", metavar="PROGRAM")
     parser.add_argument("pieces", nargs="*")
     arguments = parser.parse_args()
     if arguments.images:
         return draw(arguments.images, arguments.pieces)
+    texts = {"overview": overview(), **(measured(arguments.measure) if arguments.measure else {})}
     stale = []
-    for path in sorted(PAGES.glob("*.md")):
+    for path in [ROOT / "docs" / "presets.md", *sorted(PAGES.glob("*.md"))]:
         page = path.read_text()
-        if filled(page) != page:
+        current = filled(page, texts)
+        if current != page:
             stale.append(path.name)
             if not arguments.check:
-                path.write_text(filled(page))
+                path.write_text(current)
     if arguments.check and stale:
         sys.exit(f"presets_page.py: out of date: {', '.join(stale)} (run scripts/presets_page.py)")
 

@@ -5,6 +5,7 @@ usage: check_levels.py PROGRAM [--preset NAME]... [--suggest]     --suggest: pri
 """
 import argparse
 import concurrent.futures
+import pathlib
 import sys
 import tempfile
 
@@ -62,16 +63,21 @@ def main():
     parser.add_argument("--preset", action="append", choices=model.NAMES)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--suggest", action="store_true")
+    parser.add_argument("--table", help="also write the figures as a Markdown table")
     arguments = parser.parse_args()
     problems = []
+    table = ["| preset | peak (dBFS) | DC (dBFS) | left over right (dB) | impulses |", "|---|---|---|---|---|"]
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         for row in pool.map(lambda n: measure(arguments.program, n), arguments.preset or model.NAMES):
             stats = row["stats"]
             print(f"{row['name']:16s} peak {row['peak_db']:6.1f} dBFS  DC {row['dc_db']:6.1f} dBFS  left-right {row['balance_db']:+5.2f} dB  "
                   f"{stats['impulses']} impulses, {stats['real_time_factor']:.1f} times real time, compile {stats['cpu_compile_s']:.2f} s")
+            table.append(f"| {row['name']} | {row['peak_db']:.1f} | {row['dc_db']:.0f} | {row['balance_db']:+.1f} | {stats['impulses']} |")
             if arguments.suggest:
                 print(f'    "{row["name"]}": {row["gain"] * 10 ** ((AIM_DB - row["peak_db"]) / 20):.3g},')
             problems += list(problems_of(row))
+    if arguments.table:
+        pathlib.Path(arguments.table).write_text("\n".join(table) + "\n")
     for problem in problems:
         print(problem, file=sys.stderr)
     if problems:
