@@ -89,10 +89,13 @@ def overview():
     for path in sorted((ROOT / "presets" / "instruments").glob("*.json")):
         preset = json.loads(path.read_text())
         frets = [s.get("frets", preset.get("frets", {})) for s in preset["strings"]]
-        highest = max(s["open_note"] + f.get("count", 0) for s, f in zip(preset["strings"], frets))
+        keys = {}  # the first string of a course gives its key
+        for i, (string, stops) in enumerate(zip(preset["strings"], frets)):
+            keys.setdefault(string.get("course", f"alone {i}"), (string["open_note"], string["open_note"] + stops.get("count", 0)))
+        lowest, highest = min(low for low, _ in keys.values()), max(high for _, high in keys.values())
         exciters = sorted({e["kind"] for e in preset["exciters"]})
         bodies = (["frets"] if any("height_m" in f for f in frets) else []) + sorted({o["name"].split(" ")[0] for o in preset.get("obstacles", [])})
-        rows.append(f"| `{path.stem}` | {preset['name']} | {len(preset['strings'])} | {min(s['open_note'] for s in preset['strings'])} to {highest} | "
+        rows.append(f"| `{path.stem}` | {preset['name']} | {len(preset['strings'])} | {lowest} to {highest} | "
                     f"{', '.join(exciters)} | {', '.join(bodies)} |")
     return "\n".join(rows) + "\n"
 

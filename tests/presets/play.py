@@ -50,7 +50,7 @@ class Rendered:
         self.stats = stats
 
 
-def render(program, preset, midi, folder, name, tail_s=0.5, arguments=()):
+def render(program, preset, midi, folder, name, tail_s=0.5, arguments=(), rate_hz=RATE_HZ):
     """preset: a name, or a dictionary that becomes a file; midi: a Score."""
     folder = pathlib.Path(folder)
     if isinstance(preset, dict):
@@ -59,12 +59,12 @@ def render(program, preset, midi, folder, name, tail_s=0.5, arguments=()):
         preset = str(path)
     (folder / f"{name}.mid").write_bytes(midi.file_bytes())
     wav = folder / f"{name}.wav"
-    command = [program, "render", str(folder / f"{name}.mid"), "--preset", preset, "-o", str(wav), "--rate", str(RATE_HZ), "--format", "float",
+    command = [program, "render", str(folder / f"{name}.mid"), "--preset", preset, "-o", str(wav), "--rate", str(rate_hz), "--format", "float",
                "--tail", str(tail_s), "--stats", "-", *arguments]
     run = subprocess.run(command, capture_output=True, text=True, check=False)
     if run.returncode != 0:
         raise RuntimeError(f"{' '.join(command)}: exit code {run.returncode}: {run.stderr.strip()}")
     samples, rate = read_wav(wav)
-    assert rate == RATE_HZ
+    assert rate == rate_hz
     os.remove(wav)
     return Rendered(samples, json.loads(run.stdout))
