@@ -26,6 +26,8 @@ GAIN = {
     "bass-fretted": 0.15, "bass-fretless": 0.15, "bass-slap": 0.1, "guitar-steel": 0.1, "guitar-nylon": 0.1, "guitar-electric": 0.1,
     "guitar-12": 0.1, "sitar": 0.1, "tanpura": 0.1, "biwa": 0.1, "harpsichord": 0.1, "clavichord": 0.1, "dulcimer": 0.1, "prepared": 0.1,
 }
+GAIN_SOURCE = "chosen: a chord at velocity 127 peaks near -5 dBFS (tests/presets/check_levels.py)"
+QUALITY_SOURCE = "chosen: a compromise of cost and of what ultrasonic modes add (scripts/preset_convergence.py)"
 ORDER = ["comment", "provenance", "gain", "contact_rate_min_hz", "mode_limit_hz", "studio", "law", "play", "frets", "obstacles", "soft_touches", "exciters", "hand",
          "pickups", "body", "strings"]
 
@@ -33,6 +35,8 @@ ORDER = ["comment", "provenance", "gain", "contact_rate_min_hz", "mode_limit_hz"
 def preset(name):
     content = INSTRUMENTS[name]()
     content["gain"] = GAIN[name]
+    content["provenance"] = {"gain": GAIN_SOURCE, "contact_rate_min_hz": QUALITY_SOURCE, "mode_limit_hz": QUALITY_SOURCE,
+                             **content.get("provenance", {})}
     ordered = {"schema": SCHEMA, "name": content.pop("name")}
     ordered.update((key, content.pop(key)) for key in ORDER if key in content)
     assert not content, f"{name}: {list(content)} have no place in the file"

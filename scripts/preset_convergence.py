@@ -4,7 +4,7 @@
 Renders single notes at several settings and compares each with the finest in third-octave bands (60 Hz to 16.5 kHz).
 Collisions are chaotic, so spectra are compared; the waveform's error over the first 50 ms stands beside them.
 
-usage: preset_convergence.py [--jawari PROGRAM] [--preset FILE]        (needs numpy)
+usage: preset_convergence.py [--jawari PROGRAM] [--preset FILE] [--note KEY:VELOCITY]...        (needs numpy)
 """
 import argparse
 import json
@@ -19,7 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 RATE_HZ = 48000
 NOTES = {"E1": (28, 127), "B1": (35, 120), "A2": (45, 120)}
 FINEST = (4e6, 160e3)
-SETTINGS = [(500e3, 20e3), (500e3, 40e3), (1e6, 40e3), (250e3, 80e3), (500e3, 80e3), (1e6, 80e3), (2e6, 80e3)]
+SETTINGS = [(400e3, 20e3), (500e3, 20e3), (500e3, 40e3), (1e6, 40e3), (250e3, 80e3), (500e3, 80e3), (1e6, 80e3), (2e6, 80e3)]
 
 
 def note_file(key, velocity):
@@ -32,7 +32,8 @@ def read_float_wav(path):
     data = path.read_bytes()
     at = data.index(b"data")
     size = struct.unpack("<I", data[at + 4:at + 8])[0]
-    return np.frombuffer(data[at + 8:at + 8 + size], "<f4").astype(float)
+    channels = struct.unpack("<H", data[22:24])[0]
+    return np.frombuffer(data[at + 8:at + 8 + size], "<f4").astype(float).reshape(-1, channels).mean(axis=1)
 
 
 def render(program, preset, setting, key, velocity, folder):
@@ -58,12 +59,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--jawari", default=ROOT / "build/release/bin/jawari")
     parser.add_argument("--preset", default=ROOT / "presets/instruments/bass-fretted.json", type=pathlib.Path)
+    parser.add_argument("--note", action="append", metavar="KEY:VELOCITY", help="instead of the bass's E1 B1 A2")
     options = parser.parse_args()
+    notes = {note.split(":")[0]: tuple(map(int, note.split(":"))) for note in options.note} if options.note else NOTES
     preset = json.loads(options.preset.read_text())
     print("note  contact rate  mode limit  bands rms  bands max  first 50 ms  real time")
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        for note, (key, velocity) in NOTES.items():
+        for note, (key, velocity) in notes.items():
             finest, _ = render(options.jawari, preset, FINEST, key, velocity, folder)
             reference = band_levels_db(finest)
             start = slice(0, RATE_HZ // 20)

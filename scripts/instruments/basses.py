@@ -13,7 +13,6 @@ FRETTED_HEIGHTS = [
     -0.00063, -0.00088, -0.00113, -0.00133, -0.00158, -0.00173, -0.00188, -0.00198, -0.00213, -0.00218,
     -0.00223, -0.00233, -0.00233, -0.00233, -0.00233, -0.00233, -0.00233, -0.002335, -0.002335, -0.002335,
 ]
-QUALITY_SOURCE = "chosen with scripts/preset_convergence.py: ultrasonic modes shape the collisions and are heard through them"
 
 
 def sourced_strings(rows, damping):
@@ -39,7 +38,6 @@ def fretted():
         "comment": ["A four-string electric bass with 20 frets that its strings really strike.",
                     "Velocity 30 stays clear of the frets on every string and fret, velocity 127 hits them hard."],
         **quality(1000000, 80000), "studio": quality(2000000, 120000),
-        "provenance": {"contact_rate_min_hz": QUALITY_SOURCE, "mode_limit_hz": QUALITY_SOURCE},
         "frets": sourced({"count": 20, "height_m": FRETTED_HEIGHTS}, height_m=JASA),
         "exciters": [plain_finger(0.16, 0.004, full_height_m="chosen: the published bass is lifted by 3.6 mm")],
         "hand": player(0.12),

@@ -39,7 +39,7 @@ def steel():
         "name": "Steel-string guitar",
         "comment": ["A dreadnought with light phosphor-bronze strings and a hard plectrum; the action is low enough to buzz at velocity 127.",
                     "Articulation 1 is the plectrum, 2 the finger."],
-        **quality(400000, 24000), "studio": quality(1000000, 60000), "provenance": BODY,
+        **quality(500000, 40000), "studio": quality(2000000, 80000), "provenance": BODY,
         "frets": fret_board(length, 20, 0.00055, 0.0022, 0.00015),
         "exciters": [plectrum(0.13, 0.0025, 0.0003), finger("finger", from_bridge(0.15), 0.008, 0.006, 0.0009, 0.0025, 1.4, 0.8)],
         "hand": player(), "body": body.STEEL_GUITAR,
@@ -73,7 +73,7 @@ def electric():
         "name": "Electric guitar",
         "comment": "Solid body, nickel-wound strings, single coils at the bridge and at the neck; no amplifier. The pickup mix goes from one "
                    "to the other.",
-        **quality(400000, 24000), "studio": quality(1000000, 60000),
+        **quality(500000, 40000), "studio": quality(2000000, 80000),
         "frets": fret_board(length, 22, 0.0004, 0.0017, 0.00015),
         "exciters": [plectrum(0.10, 0.002, 0.0002)],
         "hand": player(0.1),
@@ -102,7 +102,7 @@ def twelve():
     return {
         "name": "Twelve-string guitar",
         "comment": "The steel-string guitar with six courses: octaves on E, A, D, G, unisons on B and e. The plectrum crosses a course in 4 ms.",
-        **quality(300000, 18000), "studio": quality(1000000, 50000), "provenance": BODY,
+        **quality(400000, 30000), "studio": quality(1000000, 60000), "provenance": BODY,
         "frets": fret_board(length, 20, 0.0006, 0.0024, 0.00015),
         "exciters": [plectrum(0.13, 0.0022, 0.0003)],
         "hand": player(course_delay_s=0.004), "body": body.STEEL_GUITAR,
