@@ -17,7 +17,8 @@ import estimate
 import play
 import preset_model as model
 
-NOTE_S, STEP_S, SETTLED_S = 0.72, 0.90, 0.20
+SETTLED_S, MEASURED_S, PAUSE_S = 0.20, 0.52, 0.18
+BODY_SETTLED_S, BODY_HZ = 0.9, 260  # the lowest body modes ring on between the partials of low notes
 SOFT, PLAYED = 24, 90
 CENT_LIMIT, DECAY_LIMIT = 1.0, 0.05
 PARTIALS = (1, 2, 3, 5)
@@ -43,31 +44,37 @@ def expected_motion(preset, key):
     return string, model.Motion(string, key - string["open_note"])
 
 
-def scale(keys, velocity):
+def schedule(preset, keys):
+    """(key, start, beginning of the measured passage) in s."""
+    now, plan = 0.0, []
+    for key in keys:
+        low = "body" in preset and expected_motion(preset, key)[1].first_hz < BODY_HZ
+        settled = BODY_SETTLED_S if low else SETTLED_S
+        plan.append((key, now, now + settled))
+        now += settled + MEASURED_S + PAUSE_S
+    return plan
+
+
+def scale(plan, velocity):
     score = play.score()
-    for i, key in enumerate(keys):
-        score.note(play.beats(i * STEP_S), key, play.beats(NOTE_S), velocity)
-        score.control(play.beats(i * STEP_S + NOTE_S + 0.08), 120, 0)
+    for key, start, begin in plan:
+        end = begin + MEASURED_S
+        score.note(play.beats(start), key, play.beats(end - start), velocity)
+        score.control(play.beats(end + 0.08), 120, 0)
     return score
 
 
-def touches_of(preset, string):
-    index = preset["strings"].index(string)
-    return [t for t in preset.get("soft_touches", []) if not t.get("strings") or index in t["strings"]]
-
-
-def measure_note(sound, begin_s, preset, string, motion):
+def measure_note(sound, begin_s, motion):
     """Cents of the first partial and (partial, T60 expected, T60 measured) of those that are strong enough."""
-    begin, end = int((begin_s + SETTLED_S) * play.RATE_HZ), int((begin_s + NOTE_S) * play.RATE_HZ)
-    passage = sound[begin:end]
+    passage = sound[int(begin_s * play.RATE_HZ):int((begin_s + MEASURED_S) * play.RATE_HZ)]
     cents, decays, first_level = None, [], 0.0
     for k in PARTIALS:
         expected_hz = motion.partial_hz(k)
         if expected_hz > HIGHEST_HZ:
             break
-        sigma = motion.decay_per_s(k) + sum(motion.touch_decay_per_s(k, t) for t in touches_of(preset, string))
+        sigma = motion.decay_per_s(k)
         # a window no longer than the partial lives: what follows is its neighbours' side lobes
-        lives = int(play.RATE_HZ * min(NOTE_S - SETTLED_S, max(5.0 / sigma, estimate.WINDOW_PERIODS / motion.first_hz + 0.1)))
+        lives = int(play.RATE_HZ * min(MEASURED_S, max(5.0 / sigma, estimate.WINDOW_PERIODS / motion.first_hz + 0.1)))
         partial = estimate.measure(passage[:max(lives, int(0.12 * play.RATE_HZ))], expected_hz, motion.first_hz, play.RATE_HZ)
         if k == 1:
             cents, first_level = estimate.cents(partial.frequency_hz, expected_hz), partial.level
@@ -85,14 +92,14 @@ def check_preset(program, name, contacts):
     variants = members(source)
     with tempfile.TemporaryDirectory() as folder:
         for number, preset in enumerate(variants):
-            keys = model.playable_keys(preset)
-            sound = play.render(program, preset, scale(keys, PLAYED if contacts else SOFT), folder, f"{name}-{number}")
+            plan = schedule(preset, model.playable_keys(preset))
+            sound = play.render(program, preset, scale(plan, PLAYED if contacts else SOFT), folder, f"{name}-{number}")
             assert sound.stats["ignored_notes"] == 0, (name, sound.stats)
             if not contacts:
                 assert sound.stats["impulses"] == 0, f"{name}: contacts are off, yet there were impulses"
-            for i, key in enumerate(keys):
+            for key, _, begin_s in plan:
                 string, motion = expected_motion(preset, key)
-                rows.append((string["name"], key, *measure_note(sound.mono, i * STEP_S, preset, string, motion)))
+                rows.append((string["name"], key, *measure_note(sound.mono, begin_s, motion)))
     return name, rows
 
 

@@ -72,11 +72,6 @@ class Motion:
         slope = (s2 - s1) / (k2 * k2 - k1 * k1)
         return s1 + slope * (k * k - k1 * k1)
 
-    def touch_decay_per_s(self, k, touch):
-        """What a soft dashpot adds, to first order: c phi_k(x)^2/(2 mu), phi_k^2 = 2/L sin^2."""
-        x = touch.get("position_from_bridge_m", touch.get("position_share", 0) * self.length_m)
-        return touch["damping_kg_per_s"] * 2 / self.length_m * math.sin(k * math.pi * x / self.length_m) ** 2 / (2 * self.density)
-
 
 def strings_of_key(preset, key):
     """For every string that may play the key, its motion; all strings of its course with it."""
@@ -92,13 +87,16 @@ def strings_of_key(preset, key):
 
 
 def without_contacts(preset):
-    """The same instrument, its strings touching nothing rigid."""
+    """The same instrument, its strings touching nothing, its pickups linear: what it is then is known in closed form."""
     free = copy.deepcopy(preset)
     for owner in [free] + free["strings"]:
         frets = owner.get("frets")
         if frets and "height_m" in frets:
             owner["frets"] = {"count": frets.get("count", len(frets["height_m"]))}
     free.pop("obstacles", None)
+    free.pop("soft_touches", None)
+    for pickup in free.get("pickups", []):
+        pickup.pop("magnet_distance_m", None)
     strip_provenance(free)
     return free
 
