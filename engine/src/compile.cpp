@@ -78,7 +78,7 @@ void write_mode_shapes(const StringModel& model, double x, double sign, double* 
 
 void append_contact(StringModel& model, const ContactDescription& contact, const AlignedVector<double>& row) {
     const double sign = contact.side == Side::Below ? 1.0 : -1.0;
-    model.contact_rows.insert(model.contact_rows.end(), row.begin(), row.end());
+    model.contact_rows.append(row);
     model.contact_height.push_back(sign * contact.height_m);
     model.contact_restitution.push_back(contact.restitution);
     model.contact_position.push_back(contact.position_m);

@@ -1,140 +1,32 @@
-// Strings stopped at frets: geometry, tension, losses of the damping hand, finger force and pickups.
+// description -> const instrument model: strings at their stops, courses, and what exciters need to know.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "excitation.h"
+#include "instrument_bend.h"
+#include "instrument_body.h"
+#include "instrument_exciter.h"
 #include "instrument_geometry.h"
+#include "instrument_pickup.h"
+#include "instrument_touch.h"
 #include "instrument_validate.h"
 #include "jawari/compile.h"
 #include "jawari/energy.h"
 #include "jawari/instrument_model.h"
-#include "jawari/modes.h"
-#include "jawari/obstacles.h"
-#include "jawari/render.h"
-#include "jawari/state.h"
-#include "jawari/step_coefficients.h"
+#include "kernels.h"
+#include "skipping_kernels.h"
 
 namespace jawari {
 namespace {
-
-constexpr double pi = std::numbers::pi;
-
-/// Partials between this share of the output's Nyquist rate and all of it leave the output by half a cosine:
-/// what an impulse sends to a pickup arrives as a band-limited pulse, without a step that would alias.
-constexpr double taper_start = 0.85;
 
 double square(double x) {
     return x * x;
 }
 
-double half_cosine(double x) {
-    return 0.5 * (1 - std::cos(pi * x));
-}
-
-/// The damping hand adds the same loss to every mode.
-ModeTable with_damping_hand(const StringModel& ringing, double t60_s) {
-    ModeTable table;
-    for (std::size_t k = 0; k < ringing.mode_count; ++k) {
-        table.frequency_hz.push_back(ringing.omega[k] / (2 * pi));
-        table.decay_per_s.push_back(ringing.sigma[k] + std::log(1000.0) / t60_s);
-    }
-    return table;
-}
-
-/// Both backward velocities are linear in (q, true velocity u): v = a q + c u. Eliminating u:
-/// v_damped = (c_d/c_r) v + (a_d - a_r c_d/c_r) q.
-void set_damping_change(StoppedStringModel& stopped) {
-    const StringModel& ringing = stopped.ringing;
-    const double h = ringing.step_s;
-    stopped.velocity_share.assign(ringing.stride, 0.0);
-    stopped.displacement_share.assign(ringing.stride, 0.0);
-    for (std::size_t k = 0; k < ringing.mode_count; ++k) {
-        const auto backward = [&](const StringModel& model, double q, double u) {
-            return exact_backward_velocity(model.omega[k], model.sigma[k], h, q, u);
-        };
-        const double share = backward(stopped.damped, 0, 1) / backward(ringing, 0, 1);
-        stopped.velocity_share[k] = share;
-        stopped.displacement_share[k] = backward(stopped.damped, 1, 0) - share * backward(ringing, 1, 0);
-    }
-}
-
-/// Mean of phi_k over the pickup's width: phi_k(x) sin(z)/z, z = k pi width / 2L.
-double sensed(std::size_t k, const PickupDescription& pickup, double length_m) {
-    const double z = static_cast<double>(k) * pi * pickup.width_m / (2 * length_m);
-    const double average = z > 0 ? std::sin(z) / z : 1.0;
-    return pickup.level * average * mode_shape(k, length_m - pickup.place.from_bridge_m, length_m);
-}
-
-double audible_share(double frequency_hz, double output_rate_hz) {
-    const double edge = frequency_hz / (output_rate_hz / 2);
-    if (edge >= 1) return 0;
-    return edge <= taper_start ? 1.0 : half_cosine((1 - edge) / (1 - taper_start));
-}
-
-void set_rows(StoppedStringModel& stopped, const InstrumentDescription& instrument, double string_level,
-              double output_rate_hz) {
-    const StringModel& model = stopped.ringing;
-    stopped.pluck_row.assign(model.stride, 0.0);
-    stopped.output_row.assign(model.stride, 0.0);
-    const double pluck_x = model.length_m - instrument.exciters[0].place.from_bridge_m;
-    for (std::size_t k = 1; k <= model.mode_count; ++k) {
-        stopped.pluck_row[k - 1] = mode_shape(k, pluck_x, model.length_m);
-        double row = 0;
-        for (const PickupDescription& pickup : instrument.pickups) row += sensed(k, pickup, model.length_m);
-        const double share = audible_share(model.omega[k - 1] / (2 * pi), output_rate_hz);
-        stopped.output_row[k - 1] = instrument.gain * string_level * share * row;
-    }
-}
-
-/// Plays the pluck's force at a size that reaches no fret, so that the string answers linearly, and scales
-/// the answer.
-void calibrate_finger(StoppedStringModel& stopped, const InstrumentModel& instrument, double full_height_m) {
-    constexpr double trial_force_N = 1e-6;
-    const StringModel& model = stopped.ringing;
-    StringState state = make_string_state(model);
-    const std::vector<double>& shape = instrument.pluck_shape;
-    double height_m = 0;
-    double energy_J = 0;
-    for (std::size_t i = 0; i + 1 < shape.size(); ++i) {
-        clear_excitation(model, state);
-        add_force(
-            model, state, stopped.pluck_row.data(), trial_force_N * shape[i],
-            trial_force_N * (shape[i + 1] - shape[i]) / static_cast<double>(instrument.steps_per_frame));
-        advance_frame(model, state);
-        double lift_m = 0;
-        for (std::size_t k = 0; k < model.stride; ++k) lift_m += stopped.pluck_row[k] * state.displacement[k];
-        height_m = std::max(height_m, lift_m);
-        energy_J = energy(model, state);
-    }
-    stopped.full_force_N = trial_force_N * full_height_m / height_m;
-    stopped.rest_energy_J = rest_energy_ratio * energy_J * square(stopped.full_force_N / trial_force_N);
-}
-
-/// Half-cosine flanks at the frames' boundaries: 0 at the first, 1 after the rise, 0 at the last.
-std::vector<double> pluck_shape(const FingerDescription& pluck, double output_rate_hz) {
-    const auto frames = [&](double seconds) {
-        return static_cast<std::size_t>(std::ceil(seconds * output_rate_hz));
-    };
-    const std::size_t rise = std::max<std::size_t>(frames(pluck.rise_s), 1);
-    const std::size_t release = std::max<std::size_t>(frames(pluck.release_s), 1);
-    std::vector<double> shape;
-    for (std::size_t i = 0; i <= rise; ++i) shape.push_back(half_cosine(double(i) / double(rise)));
-    for (std::size_t i = 1; i <= release; ++i)
-        shape.push_back(half_cosine(double(release - i) / double(release)));
-    return shape;
-}
-
-std::vector<double> fade_shape(double output_rate_hz) {
-    const auto frames = static_cast<std::size_t>(std::ceil(fade_s * output_rate_hz));
-    std::vector<double> shape;
-    for (std::size_t i = 1; i <= frames; ++i)
-        shape.push_back(half_cosine(double(frames - i) / double(frames)));
-    return shape;
-}
+// ---------------------------------------------------------------------------------------------- one stop
 
 Result<StringModel> compile_string(const StringDescription& string, const InstrumentDescription& instrument,
                                    const InstrumentModel& model, const std::string& place) {
@@ -152,30 +44,182 @@ Result<StringModel> compile_string(const StringDescription& string, const Instru
     return failure;
 }
 
+/// Motion without contacts under forces held over frames, started at rest: what a calibration plays.
+struct FreeString {
+    const StringModel& model;
+    AlignedVector<double> q, v, q_next, v_next;
+
+    explicit FreeString(const StringModel& string)
+        : model(string), q(string.stride, 0.0), v(q), q_next(q), v_next(q) {}
+
+    void advance(const AlignedVector<double>& held) {
+        kernels::fly(model.stride, model.flight, q.data(), v.data(), q_next.data(), v_next.data());
+        kernels::add_force_response(model.stride, model.flight, held.data(), nullptr, 0, q_next.data(),
+                                    v_next.data());
+        q.swap(q_next);
+        v.swap(v_next);
+    }
+    [[nodiscard]] double energy() const {
+        return kernels::energy(model.stride, model.kinetic.data(), model.potential.data(), model.step_s / 2,
+                               q.data(), v.data());
+    }
+};
+
+/// Force at velocity 1, and the energy that the string has then.
+struct Calibration {
+    double force_N = 0;
+    double energy_J = 0;
+};
+
+/// Plays the finger's force at 1 N: the string without contacts answers linearly, so the answer scales.
+Calibration calibrate_finger(const StoppedStringModel& stopped, const FingerDescription& finger, double x,
+                             double width_m, double rate_hz, double excitation) {
+    FreeString string(stopped.string);
+    AlignedVector<double> row(stopped.string.stride), held(stopped.string.stride);
+    write_point_row(stopped.string, x, width_m, row.data());
+    const std::uint64_t rise = frames_of(finger.rise_s, rate_hz);
+    const std::uint64_t release = frames_of(finger.release_s, rate_hz);
+    double height_m = 0;
+    for (std::uint64_t n = 0; n < rise + release; ++n) {
+        const double force = finger_shape(n, rise, release);
+        for (std::size_t k = 0; k < row.size(); ++k) held[k] = force * row[k];
+        string.advance(held);
+        double lift_m = 0;
+        for (std::size_t k = 0; k < row.size(); ++k) lift_m += row[k] * string.q[k];
+        height_m = std::max(height_m, lift_m);
+    }
+    Calibration calibration;
+    calibration.force_N = excitation * finger.full_height_m / height_m;
+    calibration.energy_J = square(calibration.force_N) * string.energy();
+    return calibration;
+}
+
+/// The end moves by b: of the order of mu b'^2 L/2 goes into the string.
+double tangent_energy(const StoppedStringModel& stopped, const TangentDescription& tangent) {
+    const double speed = tangent.full_height_m / tangent.rise_s;
+    return stopped.string.linear_density_kg_per_m * stopped.string.length_m * square(speed) / 2;
+}
+
+void calibrate_exciters(StoppedStringModel& stopped, const InstrumentModel& model,
+                        const InstrumentStringModel& string) {
+    const double length_m = stopped.string.length_m;
+    double largest_J = 0;
+    for (std::size_t i = 0; i < model.exciters.size(); ++i) {
+        const ExciterDescription& exciter = model.exciters[i];
+        Calibration calibration;
+        if (const auto* finger = std::get_if<FingerDescription>(&exciter.body)) {
+            const double x = length_m - from_bridge(string.exciter_places[i], length_m);
+            calibration = calibrate_finger(stopped, *finger, x, exciter.width_m, model.output_rate_hz,
+                                           string.excitation);
+        } else if (const auto* hammer = std::get_if<HammerDescription>(&exciter.body)) {
+            calibration.energy_J =
+                hammer->mass_kg * square(string.excitation * hammer->full_speed_m_per_s) / 2;
+        } else {
+            calibration.energy_J = square(string.excitation) *
+                                   tangent_energy(stopped, std::get<TangentDescription>(exciter.body));
+        }
+        stopped.full_force_N.push_back(calibration.force_N);
+        largest_J = std::max(largest_J, calibration.energy_J);
+    }
+    stopped.rest_energy_J = rest_energy_ratio * largest_J;
+    const StringModel& compiled = stopped.string;
+    const AlignedVector<double> still(compiled.stride, 0.0);
+    stopped.held_energy_J =
+        kernels::energy(compiled.stride, compiled.kinetic.data(), compiled.potential.data(),
+                        compiled.step_s / 2, compiled.rest_displacement.data(), still.data());
+}
+
+void find_action_contacts(StoppedStringModel& stopped, const InstrumentDescription& instrument,
+                          std::size_t index, std::size_t fret) {
+    const std::vector<bool> on_neck = contacts_on_neck(instrument, index, fret);
+    for (std::size_t c = 0; c < on_neck.size(); ++c) {
+        const std::ptrdiff_t kept = stopped.string.contact_of_description[c];
+        if (on_neck[c] && kept >= 0) stopped.action_contacts.push_back(static_cast<std::uint32_t>(kept));
+    }
+}
+
 Result<StoppedStringModel> compile_stopped(const InstrumentDescription& instrument,
                                            const InstrumentModel& model, std::size_t index,
                                            std::size_t fret) {
-    const InstrumentStringDescription& string = instrument.strings[index];
-    std::string place = "strings[" + std::to_string(index) + "]";
-    StringDescription description = stopped_string(instrument, index, fret);
-    const std::size_t modes = std::get<PhysicalModes>(description.modes).count;
-    if (modes > limits::instrument_modes) {
-        return Failure{"mode_limit_hz", std::to_string(modes) + " modes or more on " + place,
+    StoppedStringModel stopped;
+    stopped.frequency_hz = note_frequency(instrument, instrument.strings[index], fret);
+    if (!std::isfinite(stopped.frequency_hz)) return stopped;
+    const FretsDescription& frets = frets_of(instrument, instrument.strings[index]);
+    stopped.key = instrument.strings[index].open_note + semitones_of(frets, fret);
+    std::string place = indexed_place("strings", index);
+    const StringDescription description = stopped_string(instrument, index, fret);
+    const auto& modes = std::get<PhysicalModes>(description.modes);
+    if (modes.count > limits::instrument_modes) {
+        return Failure{"mode_limit_hz", std::to_string(modes.count) + " modes or more on " + place,
                        "at most " + std::to_string(limits::instrument_modes) + " modes on a string"};
     }
     place += fret == 0 ? "." : " at fret " + std::to_string(fret) + ".";
-    StoppedStringModel stopped;
-    auto ringing = compile_string(description, instrument, model, place);
-    if (!ringing) return ringing.failure();
-    stopped.ringing = std::move(ringing.value());
-    description.modes = with_damping_hand(stopped.ringing, instrument.hand.release_t60_s);
-    auto damped = compile_string(description, instrument, model, place);
-    if (!damped) return damped.failure();
-    stopped.damped = std::move(damped.value());
-    set_damping_change(stopped);
-    set_rows(stopped, instrument, string.level, model.output_rate_hz);
-    calibrate_finger(stopped, model, std::get<FingerDescription>(instrument.exciters[0].body).full_height_m);
+    auto compiled = compile_string(description, instrument, model, place);
+    if (!compiled) return compiled.failure();
+    stopped.string = std::move(compiled.value());
+    stopped.inharmonicity = modes.inharmonicity;
+    stopped.wave_impedance_kg_per_s = std::sqrt(modes.tension_N * description.linear_density_kg_per_m);
+    set_retuning_tables(stopped);
+    set_output_rows(stopped, instrument, model.output_rate_hz);
+    calibrate_exciters(stopped, model, model.strings[index]);
+    find_action_contacts(stopped, instrument, index, fret);
     return stopped;
+}
+
+// ---------------------------------------------------------------------------------------------- strings
+
+InstrumentStringModel string_without_stops(const InstrumentDescription& instrument, std::size_t index) {
+    const InstrumentStringDescription& described = instrument.strings[index];
+    InstrumentStringModel string;
+    string.name = described.name;
+    string.level = instrument.gain * described.level;
+    string.pan = described.pan;
+    string.excitation = described.excitation;
+    string.release_t60_s =
+        described.release_t60_s > 0 ? described.release_t60_s : instrument.hand.release_t60_s;
+    for (const ExciterDescription& exciter : instrument.exciters)
+        string.exciter_places.push_back(described.exciter_place.value_or(exciter.place));
+    for (const SoftTouchDescription& touch : instrument.soft_touches) {
+        if (applies_to(touch.strings, index)) string.soft_touches.push_back(touch);
+    }
+    return string;
+}
+
+/// In the order of their first strings.
+void set_courses(InstrumentModel& model, const InstrumentDescription& instrument) {
+    std::vector<std::optional<std::size_t>> numbers;
+    for (std::size_t s = 0; s < instrument.strings.size(); ++s) {
+        const std::optional<std::size_t>& number = instrument.strings[s].course;
+        const auto known = number ? std::find(numbers.begin(), numbers.end(), number) : numbers.end();
+        const auto course = static_cast<std::size_t>(known - numbers.begin());
+        if (known == numbers.end()) {
+            numbers.push_back(number);
+            model.courses.emplace_back();
+        }
+        model.courses[course].strings.push_back(s);
+        model.strings[s].course = course;
+    }
+}
+
+std::optional<Failure> compile_stops(InstrumentModel& model, const InstrumentDescription& instrument,
+                                     std::size_t index) {
+    InstrumentStringModel& string = model.strings[index];
+    const std::size_t frets = frets_of(instrument, instrument.strings[index]).count;
+    for (std::size_t fret = 0; fret <= frets; ++fret) {
+        auto stopped = compile_stopped(instrument, model, index, fret);
+        if (!stopped) return stopped.failure();
+        string.sizes = larger(string.sizes, sizes_of(stopped.value().string));
+        string.stopped.push_back(std::move(stopped.value()));
+    }
+    return {};
+}
+
+std::vector<double> fade_shape(double output_rate_hz) {
+    const std::uint64_t frames = frames_of(fade_s, output_rate_hz);
+    std::vector<double> shape;
+    for (std::uint64_t i = 1; i <= frames; ++i)
+        shape.push_back(0.5 + 0.5 * std::cos(std::acos(-1.0) * double(i) / double(frames)));
+    return shape;
 }
 
 }  // namespace
@@ -188,18 +232,17 @@ Result<InstrumentModel> compile_instrument(const InstrumentDescription& instrume
     model.steps_per_frame =
         static_cast<std::size_t>(std::ceil(instrument.quality.contact_rate_min_hz / output_rate_hz));
     model.contact_rate_hz = output_rate_hz * static_cast<double>(model.steps_per_frame);
-    model.height_exponent = std::get<FingerDescription>(instrument.exciters[0].body).height_exponent;
-    model.pluck_shape = pluck_shape(std::get<FingerDescription>(instrument.exciters[0].body), output_rate_hz);
+    model.play = instrument.play;
+    model.exciters = instrument.exciters;
+    model.hand = instrument.hand;
+    model.pickups = instrument.pickups;
     model.fade_shape = fade_shape(output_rate_hz);
+    model.body = body_model(instrument, output_rate_hz);
+    for (std::size_t s = 0; s < instrument.strings.size(); ++s)
+        model.strings.push_back(string_without_stops(instrument, s));
+    set_courses(model, instrument);
     for (std::size_t s = 0; s < instrument.strings.size(); ++s) {
-        InstrumentStringModel& string = model.strings.emplace_back();
-        string.name = instrument.strings[s].name;
-        string.open_note = instrument.strings[s].open_note;
-        for (std::size_t fret = 0; fret <= instrument.frets.count; ++fret) {
-            auto stopped = compile_stopped(instrument, model, s, fret);
-            if (!stopped) return stopped.failure();
-            string.stopped.push_back(std::move(stopped.value()));
-        }
+        if (auto failure = compile_stops(model, instrument, s)) return *std::move(failure);
     }
     return model;
 }

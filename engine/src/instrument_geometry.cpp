@@ -106,12 +106,19 @@ double stop_height(const InstrumentDescription& instrument, std::size_t index, c
     return height > -1 ? std::min(height, 0.0) : 0.0;
 }
 
-void add_contact(std::vector<ContactDescription>& contacts, const ObstacleDescription& obstacle,
-                 const Stop& stop, double distance, double x) {
+/// A contact, and whether it belongs to the neck, whose distance the player may adjust.
+struct PlacedContact {
+    ContactDescription contact;
+    bool on_neck = false;
+};
+
+void add_contact(std::vector<PlacedContact>& contacts, const ObstacleDescription& obstacle, const Stop& stop,
+                 double distance, double x) {
     if (!(x > 0 && x < stop.length_m)) return;
     const double to_bridge = stop.length_m - x;
     const double line = obstacle.origin == Origin::Stop ? 0.0 : stop.height_m * to_bridge / stop.length_m;
-    contacts.push_back({x, height_of(obstacle, distance) - line, obstacle.restitution, obstacle.side});
+    contacts.push_back({{x, height_of(obstacle, distance) - line, obstacle.restitution, obstacle.side},
+                        obstacle.origin == Origin::Nut && obstacle.side == Side::Below});
 }
 
 double distance_of(const ObstacleDescription& obstacle, const Stop& stop, double x) {
@@ -139,7 +146,7 @@ double place_of(const ObstacleDescription& obstacle, const Stop& stop, double di
 }
 
 /// Spread contacts lie on nodes j L/M, so that the response depends on differences and sums of j alone.
-void add_spread_contacts(std::vector<ContactDescription>& contacts, const ObstacleDescription& obstacle,
+void add_spread_contacts(std::vector<PlacedContact>& contacts, const ObstacleDescription& obstacle,
                          const Stop& stop) {
     const auto [first, last] = extent_of(obstacle);
     const double spacing = (last - first) / static_cast<double>(obstacle.points);
@@ -159,21 +166,21 @@ void add_spread_contacts(std::vector<ContactDescription>& contacts, const Obstac
     }
 }
 
-std::vector<ContactDescription> contacts_at(const InstrumentDescription& instrument, std::size_t index,
-                                            std::size_t fret) {
+std::vector<PlacedContact> contacts_at(const InstrumentDescription& instrument, std::size_t index,
+                                       std::size_t fret) {
     const InstrumentStringDescription& string = instrument.strings[index];
     const FretsDescription& frets = frets_of(instrument, string);
     Stop stop;
     stop.length_m = speaking_length(instrument, string, fret);
     stop.from_nut_m = string.length_m - stop.length_m;
     stop.height_m = stop_height(instrument, index, frets, fret, stop.from_nut_m);
-    std::vector<ContactDescription> contacts;
+    std::vector<PlacedContact> contacts;
     if (!instrument.contacts) return contacts;
     for (std::size_t j = fret + 1; j <= frets.height_m.size(); ++j) {
         const double to_bridge = speaking_length(instrument, string, j);
         if (!(to_bridge < stop.length_m)) continue;
         const double height = frets.height_m[j - 1] - stop.height_m * to_bridge / stop.length_m;
-        contacts.push_back({stop.length_m - to_bridge, height, frets.restitution, Side::Below});
+        contacts.push_back({{stop.length_m - to_bridge, height, frets.restitution, Side::Below}, true});
     }
     for (const ObstacleDescription& obstacle : instrument.obstacles) {
         if (!applies_to(obstacle.strings, index)) continue;
@@ -184,8 +191,9 @@ std::vector<ContactDescription> contacts_at(const InstrumentDescription& instrum
         for (const auto& corner : std::get<CornerProfile>(obstacle.profile))
             add_contact(contacts, obstacle, stop, corner.first, place_of(obstacle, stop, corner.first));
     }
-    std::stable_sort(contacts.begin(), contacts.end(),
-                     [](const auto& a, const auto& b) { return a.position_m < b.position_m; });
+    std::stable_sort(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) {
+        return a.contact.position_m < b.contact.position_m;
+    });
     return contacts;
 }
 
@@ -226,8 +234,17 @@ StringDescription stopped_string(const InstrumentDescription& instrument, std::s
     modes.inharmonicity = stiffness.inharmonicity;
     modes.damping = string.damping;
     stopped.modes = modes;
-    stopped.contacts = contacts_at(instrument, index, fret);
+    for (const PlacedContact& placed : contacts_at(instrument, index, fret))
+        stopped.contacts.push_back(placed.contact);
     return stopped;
+}
+
+std::vector<bool> contacts_on_neck(const InstrumentDescription& instrument, std::size_t index,
+                                   std::size_t fret) {
+    std::vector<bool> on_neck;
+    for (const PlacedContact& placed : contacts_at(instrument, index, fret))
+        on_neck.push_back(placed.on_neck);
+    return on_neck;
 }
 
 }  // namespace jawari

@@ -41,4 +41,8 @@ double note_frequency(const InstrumentDescription& instrument, const InstrumentS
 StringDescription stopped_string(const InstrumentDescription& instrument, std::size_t index,
                                  std::size_t fret);
 
+/// For each contact of stopped_string(): whether it is a fret or below the string on the neck.
+std::vector<bool> contacts_on_neck(const InstrumentDescription& instrument, std::size_t index,
+                                   std::size_t fret);
+
 }  // namespace jawari

@@ -1,15 +1,12 @@
-// Which string and voice a note takes, and what events do to them. The rules are those of
-// instrument_render.h.
+// What events do to courses and channels.
 #pragma once
 
 #include "jawari/instrument_render.h"
 
 namespace jawari {
 
+/// Events with a field out of range are ignored.
 void apply_event(const InstrumentModel& model, InstrumentState& state,
                  const InstrumentEvent& event) JAWARI_REALTIME;
-
-/// Starts notes that wait for a voice, where one has become idle.
-void start_pending_notes(const InstrumentModel& model, InstrumentState& state) JAWARI_REALTIME;
 
 }  // namespace jawari

@@ -1,25 +1,71 @@
 #include "jawari/instrument_render.h"
 
-#include <algorithm>
-
+#include "instrument_body.h"
+#include "instrument_control.h"
 #include "instrument_notes.h"
+#include "instrument_strings.h"
 #include "instrument_voice.h"
 
 namespace jawari {
 namespace {
 
-double advance_strings(const InstrumentModel& model, InstrumentState& state) {
-    double sum = 0;
-    for (std::size_t s = 0; s < model.strings.size(); ++s) {
-        InstrumentStringState& string = state.strings[s];
-        for (std::size_t v = 0; v < voices_per_string; ++v) {
-            if (string.voices[v].phase == VoicePhase::Idle) continue;
-            sum += advance_voice(model, model.strings[s], string.voices[v], state.finished);
-            if (string.voices[v].phase == VoicePhase::Idle && string.sounding == v)
-                string.sounding = no_voice;
+VoiceSignals advance_string(const InstrumentModel& model, InstrumentState& state, std::size_t s,
+                            double smoothing) {
+    InstrumentStringState& string = state.strings[s];
+    VoiceSignals sum;
+    std::size_t busy = 0;
+    for (std::size_t v = 0; v < string.voices.size(); ++v) {
+        Voice& voice = string.voices[v];
+        if (voice.phase == VoicePhase::Idle) continue;
+        const VoiceSignals signals = advance_voice(model, model.strings[s], voice, smoothing, state);
+        sum.pickups += signals.pickups;
+        sum.left += signals.left;
+        sum.right += signals.right;
+        sum.bridge_N += signals.bridge_N;
+        if (voice.phase != VoicePhase::Idle) {
+            ++busy;
+        } else if (string.sounding == v) {
+            string.sounding = no_voice;
         }
     }
+    string.busy = busy;
     return sum;
+}
+
+StereoSample advance(const InstrumentModel& model, InstrumentState& state, std::span<double* const> strings,
+                     std::size_t n, double smoothing) {
+    if (state.frame % control_frames == 0) follow_controls(model, state);
+    StereoSample sample;
+    double bridge_N = 0;
+    for (std::size_t s = 0; s < model.strings.size(); ++s) {
+        VoiceSignals signals;
+        if (state.strings[s].busy > 0) signals = advance_string(model, state, s, smoothing);
+        if (s < strings.size()) strings[s][n] = signals.pickups;
+        sample.left += signals.left;
+        sample.right += signals.right;
+        bridge_N += signals.bridge_N;
+    }
+    const StereoSample body = advance_body(model.body, state.body, bridge_N);
+    sample.left += body.left;
+    sample.right += body.right;
+    state.frame += 1;
+    return sample;
+}
+
+/// Calls sink(n, sample) for every frame.
+template <class Sink>
+void render_frames(const InstrumentModel& model, InstrumentState& state,
+                   std::span<const InstrumentEvent> events, std::span<double* const> strings,
+                   std::size_t frames, Sink sink) {
+    const double smoothing = follow_share(model, 1, gain_follow_s);
+    std::size_t next = 0;
+    for (std::size_t n = 0; n < frames; ++n) {
+        start_pending_strokes(model, state);
+        while (next < events.size() && events[next].frame <= n) apply_event(model, state, events[next++]);
+        sink(n, advance(model, state, strings, n, smoothing));
+    }
+    if (next < events.size()) start_pending_strokes(model, state);
+    while (next < events.size()) apply_event(model, state, events[next++]);
 }
 
 }  // namespace
@@ -27,22 +73,17 @@ double advance_strings(const InstrumentModel& model, InstrumentState& state) {
 void render_instrument(const InstrumentModel& model, InstrumentState& state,
                        std::span<const InstrumentEvent> events, const InstrumentOutput& output,
                        std::size_t frames) JAWARI_REALTIME {
-    render_instrument(model, state, events, output.left, frames);
-    std::copy_n(output.left, frames, output.right);
+    render_frames(model, state, events, output.strings, frames, [&](std::size_t n, StereoSample sample) {
+        output.left[n] = sample.left;
+        output.right[n] = sample.right;
+    });
 }
 
 void render_instrument(const InstrumentModel& model, InstrumentState& state,
                        std::span<const InstrumentEvent> events, double* output,
                        std::size_t frames) JAWARI_REALTIME {
-    std::size_t next = 0;
-    for (std::size_t n = 0; n < frames; ++n) {
-        start_pending_notes(model, state);
-        while (next < events.size() && events[next].frame <= n) apply_event(model, state, events[next++]);
-        output[n] = advance_strings(model, state);
-        state.frame += 1;
-    }
-    if (next < events.size()) start_pending_notes(model, state);
-    while (next < events.size()) apply_event(model, state, events[next++]);
+    render_frames(model, state, events, {}, frames,
+                  [&](std::size_t n, StereoSample sample) { output[n] = (sample.left + sample.right) / 2; });
 }
 
 }  // namespace jawari

@@ -2,18 +2,36 @@
 
 #include <algorithm>
 
+#include "instrument_body.h"
 #include "instrument_voice.h"
 
 namespace jawari {
+namespace {
+
+InstrumentStringState make_string(const InstrumentStringModel& model) {
+    InstrumentStringState string;
+    const std::size_t voices = model.stopped.size() == 1 ? 1 : voices_per_string;
+    for (std::size_t v = 0; v < voices; ++v) string.voices.push_back(make_voice(model));
+    string.scratch.assign(model.sizes.stride, 0.0);
+    return string;
+}
+
+ChannelState neutral_channel() {
+    ChannelState channel;
+    for (const ParameterDeclaration& parameter : parameter_table())
+        channel.parameters[static_cast<std::size_t>(parameter.id)] = parameter.neutral;
+    return channel;
+}
+
+}  // namespace
 
 InstrumentState make_instrument_state(const InstrumentModel& model) {
     InstrumentState state;
-    state.strings.resize(model.strings.size());
-    for (std::size_t s = 0; s < model.strings.size(); ++s) {
-        for (Voice& voice : state.strings[s].voices) {
-            voice.string = make_string_state(model.strings[s].stopped[0].ringing);
-        }
-    }
+    state.play = model.play;
+    for (const InstrumentStringModel& string : model.strings) state.strings.push_back(make_string(string));
+    state.courses.resize(model.courses.size());
+    state.channels.fill(neutral_channel());
+    state.body = make_body_state(model.body);
     return state;
 }
 
@@ -28,11 +46,12 @@ Counters contact_counters(const InstrumentState& state) {
 }
 
 bool at_rest(const InstrumentState& state) noexcept {
-    return std::all_of(state.strings.begin(), state.strings.end(), [](const InstrumentStringState& string) {
-        return !string.pending.active &&
-               std::all_of(string.voices.begin(), string.voices.end(),
-                           [](const Voice& voice) { return voice.phase == VoicePhase::Idle; });
-    });
+    return !state.body.ringing &&
+           std::all_of(state.strings.begin(), state.strings.end(), [](const InstrumentStringState& string) {
+               return !string.pending.active &&
+                      std::all_of(string.voices.begin(), string.voices.end(),
+                                  [](const Voice& voice) { return voice.phase == VoicePhase::Idle; });
+           });
 }
 
 }  // namespace jawari

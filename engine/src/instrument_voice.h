@@ -1,4 +1,4 @@
-// One voice: a pluck, its decay under the string's own losses or the damping hand's, and its end.
+// One motion: how it starts, is excited, damped, carried over and ends.
 #pragma once
 
 #include "jawari/instrument_model.h"
@@ -7,22 +7,36 @@
 
 namespace jawari {
 
-/// From rest: the finger begins to lift the string at `fret`. velocity: above 0, to 1.
+/// The string as the motion has it: compiled, or bent.
+inline const StringModel& voice_model(const InstrumentStringModel& string, const Voice& voice) {
+    return voice.bend.active ? voice.bend.model : string.stopped[voice.fret].string;
+}
+
+Voice make_voice(const InstrumentStringModel& string);
+
+/// At rest at `fret`, everything beneath lowered by `action_m`; sounding, without force.
 void start_voice(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice,
-                 std::size_t fret, double velocity) JAWARI_REALTIME;
+                 std::size_t fret, int channel, double action_m) JAWARI_REALTIME;
 
-/// Puts the damping hand on a sounding voice: position and true velocity stay as they are.
-void damp_voice(const InstrumentStringModel& string, Voice& voice) JAWARI_REALTIME;
+/// Excites a motion. position_factor: of the distance from the bridge.
+void strike_voice(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice,
+                  const Stroke& stroke, double position_factor) JAWARI_REALTIME;
 
-/// Takes a voice away within the model's fade.
+/// Takes a motion away within the model's fade.
 void fade_voice(Voice& voice) JAWARI_REALTIME;
 
-/// Advances a voice that is not idle by one output frame and returns its output at the frame's end. May leave
-/// it idle.
-double advance_voice(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice,
-                     Counters& finished) JAWARI_REALTIME;
+/// What one motion adds to a frame.
+struct VoiceSignals {
+    double pickups = 0;  ///< with level, before left and right
+    double left = 0, right = 0;
+    double bridge_N = 0;  ///< force that drives the body, with level
+};
 
-/// The voice's energy [J].
-double voice_energy(const InstrumentStringModel& string, const Voice& voice) JAWARI_REALTIME;
+/// Advances a motion that is not idle by one output frame. May leave it idle.
+VoiceSignals advance_voice(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice,
+                           double smoothing, InstrumentState& state) JAWARI_REALTIME;
+
+/// The motion's energy beyond that of its rest [J].
+double voice_energy(const InstrumentStringModel& string, Voice& voice) JAWARI_REALTIME;
 
 }  // namespace jawari

@@ -10,8 +10,8 @@
 namespace jawari {
 namespace {
 
-ContactState make_contact_state(const StringModel& model) {
-    const std::size_t n = model.contact_stride;
+ContactState make_contact_state(const StringSizes& sizes) {
+    const std::size_t n = padded(sizes.contacts);
     ContactState contact;
     for (auto* array :
          {&contact.gap, &contact.gap_before, &contact.height, &contact.height_before,
@@ -38,35 +38,34 @@ void place_obstacles(const StringModel& model, ContactState& contact) {
     contact.candidate_count = 0;
 }
 
-CertificateState make_certificate_state(const StringModel& model) {
-    const std::size_t groups = std::max<std::size_t>(model.certificate.group_begin.size(), 1) - 1;
+CertificateState make_certificate_state(const StringSizes& sizes) {
     CertificateState bounds;
-    for (auto* array : {&bounds.speed, &bounds.detour, &bounds.extent}) array->assign(model.stride, 0.0);
+    for (auto* array : {&bounds.speed, &bounds.detour, &bounds.extent}) array->assign(sizes.stride, 0.0);
     for (auto* array :
          {&bounds.group_speed, &bounds.group_detour, &bounds.group_clearance, &bounds.group_odometer,
           &bounds.group_push, &bounds.group_margin, &bounds.group_force_kick}) {
-        array->assign(groups, 0.0);
+        array->assign(sizes.groups, 0.0);
     }
     for (auto* array : {&bounds.open_until, &bounds.margin, &bounds.frame_gap, &bounds.frame_end_gap}) {
-        array->assign(model.contact_count, 0.0);
+        array->assign(sizes.contacts, 0.0);
     }
-    bounds.frame_gap_at.assign(model.contact_count, 0);
-    bounds.expired.assign(model.contact_count, 0);
+    bounds.frame_gap_at.assign(sizes.contacts, 0);
+    bounds.expired.assign(sizes.contacts, 0);
     return bounds;
 }
 
-NearState make_near_state(const StringModel& model) {
+NearState make_near_state(const StringSizes& sizes) {
     NearState near;
-    if (model.response.empty()) return near;
-    const std::size_t count = model.contact_count;
+    if (sizes.response_stride == 0) return near;
+    const std::size_t count = sizes.contacts;
     for (auto* array : {&near.rates_free, &near.rates, &near.impulses})
-        array->assign(count * model.response_stride, 0.0);
-    near.force_impulses.assign(2 * model.response_stride, 0.0);
+        array->assign(count * sizes.response_stride, 0.0);
+    near.force_impulses.assign(2 * sizes.response_stride, 0.0);
     near.lanes.assign(count * kernels::steps_per_run * lane_padding, 0.0);
-    near.force_rows.assign(2 * model.stride, 0.0);
-    near.displacement.assign(model.stride, 0.0);
-    near.velocity.assign(model.stride, 0.0);
-    for (auto* array : {&near.gap, &near.gap_before, &near.impulse}) array->assign(model.contact_stride, 0.0);
+    near.force_rows.assign(2 * sizes.stride, 0.0);
+    near.displacement.assign(sizes.stride, 0.0);
+    near.velocity.assign(sizes.stride, 0.0);
+    for (auto* array : {&near.gap, &near.gap_before, &near.impulse}) array->assign(padded(sizes.contacts), 0.0);
     near.rows.assign(count, nullptr);
     near.struck.assign(count, 0);
     return near;
@@ -74,17 +73,33 @@ NearState make_near_state(const StringModel& model) {
 
 }  // namespace
 
-StringState make_string_state(const StringModel& model, Metering metering, Skipping skipping) {
+StringSizes sizes_of(const StringModel& model) {
+    const std::size_t groups = std::max<std::size_t>(model.certificate.group_begin.size(), 1) - 1;
+    const std::size_t response_stride = model.response.empty() ? 0 : model.response_stride;
+    return {model.stride, model.contact_count, groups, response_stride};
+}
+
+StringSizes larger(const StringSizes& a, const StringSizes& b) {
+    return {std::max(a.stride, b.stride), std::max(a.contacts, b.contacts), std::max(a.groups, b.groups),
+            std::max(a.response_stride, b.response_stride)};
+}
+
+StringState allocate_string_state(const StringSizes& sizes) {
     StringState state;
-    for (auto* array :
-         {&state.displacement, &state.velocity, &state.displacement_before, &state.velocity_before,
-          &state.displacement_flown, &state.velocity_flown, &state.excitation.held, &state.excitation.ramp}) {
-        array->assign(model.stride, 0.0);
+    for (auto* array : {&state.displacement, &state.velocity, &state.displacement_before,
+                        &state.velocity_before, &state.displacement_flown, &state.velocity_flown,
+                        &state.excitation.held, &state.excitation.ramp}) {
+        array->assign(sizes.stride, 0.0);
     }
-    state.contact = make_contact_state(model);
-    state.lcp = make_lcp_workspace(model.contact_count);
-    state.certificate = make_certificate_state(model);
-    state.near_frame = make_near_state(model);
+    state.contact = make_contact_state(sizes);
+    state.lcp = make_lcp_workspace(sizes.contacts);
+    state.certificate = make_certificate_state(sizes);
+    state.near_frame = make_near_state(sizes);
+    return state;
+}
+
+StringState make_string_state(const StringModel& model, Metering metering, Skipping skipping) {
+    StringState state = allocate_string_state(sizes_of(model));
     state.metering = metering;
     state.skipping = skipping;
     reset(model, state);

@@ -9,6 +9,7 @@
 #include "excitation.h"
 #include "jawari/instrument_render.h"
 #include "jawari/render.h"
+#include "scenes.h"
 
 namespace jawari {
 namespace {
@@ -116,28 +117,31 @@ TEST(InstrumentRender, TheFirstSampleANoteChangesIsThatOfItsEvent) {
     EXPECT_EQ(differs.first - held.begin(), 5000);
 }
 
-/// A voice's state is sized for the open string; a state of the stopped string's own size gives the same
-/// bits.
-TEST(InstrumentRender, AVoiceIsTheCompiledStringUnderTheFingersForce) {
+/// A motion's state is sized for the open string; a state of the stopped string's own size gives the same
+/// numbers. The finger's force is that of half-cosine flanks averaged over each frame.
+TEST(InstrumentRender, AMotionIsTheCompiledStringUnderTheFingersForce) {
     const InstrumentModel& model = bass_model();
     const std::size_t fret = 9;
     const StoppedStringModel& stopped = model.strings[3].stopped[fret];
     const auto output = play({note_on(0, 43 + static_cast<int>(fret), 1)}, 1000);
-    StringState state = make_string_state(stopped.ringing);
+    StringState state = make_string_state(stopped.string);
+    const double L = stopped.string.length_m;
+    const double rise = std::ceil(0.004 * rate_hz), release = std::ceil(0.0005 * rate_hz);
     for (std::size_t n = 0; n < 1000; ++n) {
-        const bool plucking = n + 1 < model.pluck_shape.size();
-        clear_excitation(stopped.ringing, state);
-        if (plucking) {
-            const double* shape = model.pluck_shape.data() + n;
-            add_force(
-                stopped.ringing, state, stopped.pluck_row.data(), stopped.full_force_N * shape[0],
-                stopped.full_force_N * (shape[1] - shape[0]) / static_cast<double>(model.steps_per_frame));
+        double force = 0;  // the mean of 1000 samples within the frame
+        for (int i = 0; i < 1000; ++i) {
+            const double t = static_cast<double>(n) + (i + 0.5) / 1000;
+            const double x = t < rise ? t / rise : std::max(0.0, (rise + release - t) / release);
+            force += 0.5 * (1 - std::cos(3.14159265358979323846 * x)) / 1000;
         }
-        advance_frame(stopped.ringing, state);
+        clear_excitation(stopped.string, state);
+        if (n < static_cast<std::size_t>(rise + release))
+            test::press(stopped.string, state, L - 0.16, stopped.full_force_N[0] * force);
+        advance_frame(stopped.string, state);
         double expected = 0;
-        for (std::size_t k = 0; k < stopped.ringing.mode_count; ++k)
-            expected += stopped.output_row[k] * state.velocity[k];
-        ASSERT_NEAR(output[n], expected, 1e-12) << "frame " << n;
+        for (std::size_t k = 0; k < stopped.string.mode_count; ++k)
+            expected += 0.3 * stopped.pickup_rows[k] * state.velocity[k];
+        ASSERT_NEAR(output[n], expected, 1e-6) << "frame " << n;
     }
     EXPECT_GT(state.counters.impulses, 0U);
 }
@@ -226,8 +230,7 @@ TEST(InstrumentRender, AllSoundOffEndsWithinTheFade) {
 
 std::vector<int> held_keys(const InstrumentState& state) {
     std::vector<int> keys;
-    for (const InstrumentStringState& string : state.strings)
-        keys.push_back(string.held.active ? string.held.key : -1);
+    for (const CourseState& course : state.courses) keys.push_back(course.held.active ? course.held.key : -1);
     return keys;
 }
 

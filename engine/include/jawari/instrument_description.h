@@ -141,7 +141,7 @@ struct ExciterDescription {
 /// the touch alone would give in first order; no touch is harder than one that absorbs best.
 struct HandDescription {
     bool damps = true;  ///< false: strings ring on after note-off, as on a dulcimer
-    std::array<StringPlace, 2> release_places{{{0, 0.137}, {0, 0.31}}};
+    std::array<StringPlace, 2> release_places{{{0, 0.164}, {0, 0.312}}};
     double release_t60_s = 0.1;  ///< at release velocity 0.5; 0.005 to 60
     double release_spread = 2;   ///< T60 times this at release velocity 0, over it at 1; 1 to 10
     StringPlace palm_place{0, 0.03};

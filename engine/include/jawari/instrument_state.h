@@ -5,9 +5,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "jawari/instrument_model.h"
+#include "jawari/instrument_touches.h"
+#include "jawari/parameters.h"
 #include "jawari/state.h"
 
 namespace jawari {
@@ -15,72 +18,149 @@ namespace jawari {
 enum class VoicePhase {
     Idle,      ///< at rest, costs nothing
     Sounding,  ///< the string's note
-    Damped     ///< an earlier note under the damping hand
+    Damped     ///< an earlier note, under the damping hand if there is one
 };
 
-/// One motion of one string: a note from its pluck until it is at rest.
+/// A motion's own copy of its string, at another tension.
+struct BendState {
+    bool active = false;   ///< `model` is in force
+    double semitones = 0;  ///< bend in force
+    double target = 0;     ///< where it goes [semitones]
+    StringModel model;
+    AlignedVector<double> backward_q, backward_u;  ///< as StoppedStringModel's, of `model`
+};
+
+/// A slide: the pitch glides to another fret's, which then takes over.
+struct SlideState {
+    bool active = false;
+    std::size_t fret = 0;
+    double semitones = 0;  ///< from this fret to that
+    std::uint64_t frame = 0, frames = 0;
+};
+
+/// How a motion is heard.
+struct VoiceGains {
+    double level = 0;            ///< volume and expression, with the string's level
+    double left = 0, right = 0;  ///< of the place between left and right
+    double body = 0;             ///< share of its force that drives the body
+    double mix = 0.5;            ///< of the pickups
+};
+
+/// One motion of one string: from its excitation until it is at rest.
 struct Voice {
     VoicePhase phase = VoicePhase::Idle;
     std::size_t fret = 0;
-    StringState string;        ///< sized for the open string, the largest
-    std::uint64_t age = 0;     ///< frames since the pluck began
-    double pluck_force_N = 0;  ///< peak of the finger's force
-    bool fading = false;       ///< being taken away, see render_instrument()
+    int channel = 0;
+    StringState string;  ///< sized for the largest of the string's stops
+    TouchState touches;
+    BendState bend;
+    SlideState slide;
+    std::uint64_t age = 0;  ///< frames since it began
+    bool fading = false;    ///< being taken away, see render_instrument()
     std::size_t fade_frame = 0;
+    std::size_t rise_frame = 0;  ///< of fading in after legato; at the shape's end: fully in
+    VoiceGains gains;            ///< in force, following the target smoothly
+    VoiceGains targets;
 };
 
-/// The note that occupies a string, from note-on until it is released (by note-off, or the pedal).
+/// The note that occupies a course, from note-on until it is released (by note-off, or the pedal).
 struct HeldNote {
     bool active = false;
     bool key_down = false;  ///< false while only the sustain pedal holds it
     int channel = 0;
     int key = 0;
     std::uint64_t order = 0;  ///< of its note-on; larger is later
+    double velocity = 0;
+    double bend = std::numeric_limits<double>::quiet_NaN();      ///< of this note [semitones]; NaN: channel's
+    double pressure = std::numeric_limits<double>::quiet_NaN();  ///< NaN: the channel's
 };
 
-/// A note waiting for a voice.
-struct PendingNote {
-    bool active = false;
+inline constexpr std::size_t legato_depth = 8;
+
+/// Strings that sound together.
+struct CourseState {
+    HeldNote held;
+    /// Legato: keys below the held one that are still down, the latest last.
+    std::array<int, legato_depth> below{};
+    std::size_t below_count = 0;
+};
+
+/// How a note is to be excited.
+struct Stroke {
     std::size_t fret = 0;
     double velocity = 0;
+    std::size_t exciter = 0;
+    int channel = 0;
+    double hardness = 1;  ///< factor of release and rise speed, and of felts
 };
 
-/// 1 sounding, 2 damped and 1 kept free for the next note.
+/// A stroke that waits: for a free motion, or for its turn within a course.
+struct PendingStroke {
+    bool active = false;
+    std::uint64_t delay = 0;  ///< frames until it may begin
+    Stroke stroke;
+};
+
+/// Motions of a string that can be stopped: 1 sounding, 2 damped and 1 kept free for the next note. One that
+/// only sounds open has one.
 inline constexpr std::size_t voices_per_string = 4;
-inline constexpr std::size_t no_voice = voices_per_string;
+inline constexpr std::size_t no_voice = std::numeric_limits<std::size_t>::max();
 inline constexpr int midi_channels = 16;
 
 struct InstrumentStringState {
-    std::array<Voice, voices_per_string> voices;
+    std::vector<Voice> voices;
     std::size_t sounding = no_voice;
-    HeldNote held;
-    PendingNote pending;
+    std::size_t busy = 0;  ///< voices that are not idle
+    PendingStroke pending;
+    AlignedVector<double> scratch;  ///< over modes, of legato
+};
+
+struct ChannelState {
+    bool sustain = false;
+    double soft = 0;
+    double bend = 0;      ///< [semitones]
+    double pressure = 0;  ///< 0 to 1
+    double timbre = 0.5;  ///< 0 to 1
+    std::array<double, parameter_count> parameters{};
+};
+
+struct BodyState {
+    AlignedVector<double> y, v;
+    double force_N = 0;  ///< of the frame before
+    bool ringing = false;
 };
 
 struct InstrumentCounters {
-    std::uint64_t notes = 0;          ///< plucked
-    std::uint64_t ignored_notes = 0;  ///< out of range, or replaced while waiting for a voice
-    std::uint64_t stolen_notes = 0;   ///< held notes whose string was taken by another
-    std::uint64_t delayed_notes = 0;  ///< had to wait for a voice to fade, at most fade_s
-    std::uint64_t faded_voices = 0;   ///< taken away before they were at rest
+    std::uint64_t notes = 0;             ///< excited
+    std::uint64_t ignored_notes = 0;     ///< out of range, or replaced while waiting for a motion
+    std::uint64_t stolen_notes = 0;      ///< held notes whose string was taken by another
+    std::uint64_t delayed_notes = 0;     ///< had to wait for a motion to fade, at most fade_s
+    std::uint64_t faded_voices = 0;      ///< taken away before they were at rest
+    std::uint64_t legato_notes = 0;      ///< carried over from another fret
+    std::uint64_t nonfinite_resets = 0;  ///< hammers and bodies whose state was not finite
 };
 
 struct InstrumentState {
+    PlayMode play = PlayMode::Keyboard;  ///< the preset's; may be changed before the first note
     std::vector<InstrumentStringState> strings;
-    std::array<bool, midi_channels> sustain{};
+    std::vector<CourseState> courses;
+    std::array<ChannelState, midi_channels> channels;
+    BodyState body;
     std::uint64_t note_order = 0;
-    std::uint64_t frame = 0;  ///< frames rendered
+    std::uint64_t frame = 0;          ///< frames rendered
+    std::uint64_t strokes_until = 0;  ///< waiting strokes have been looked at up to this frame
     InstrumentCounters counters;
-    Counters finished;  ///< contact counters of voices that are idle again
+    PlayerWork work;
+    Counters finished;  ///< contact counters of motions that are idle again
 };
 
 /// All strings at rest. Allocates all that rendering needs.
 InstrumentState make_instrument_state(const InstrumentModel& model);
 
-/// Contact counters of all voices, finished and sounding.
+/// Contact counters of all motions, finished and sounding.
 Counters contact_counters(const InstrumentState& state);
 
-/// Whether every voice is idle and no note is waiting.
+/// Whether every motion is idle, nothing is waiting and the body is still.
 bool at_rest(const InstrumentState& state) noexcept;
 
 }  // namespace jawari

@@ -8,6 +8,7 @@
 
 #include "jawari/aligned.h"
 #include "jawari/description.h"
+#include "jawari/shared_array.h"
 
 namespace jawari {
 
@@ -28,7 +29,7 @@ struct CertificateModel {
     AlignedVector<double> extent_v;  ///< h^2 (1+e)/(2d) [s^2]
     AlignedVector<double> kick;      ///< rho w/mu: what an impulse on phi = 1 adds to r at most [1/kg m]
     std::vector<std::size_t> group_begin;  ///< first contact of each group, and the contact count at the end
-    AlignedVector<double> envelope;        ///< max over a group's contacts of |phi_k|, groups x stride
+    SharedArray<double> envelope;          ///< max over a group's contacts of |phi_k|, groups x stride
     /// What 1 N s at contact c does to group g at most, groups x contact_count: how far a gap falls within a
     /// frame [m/(N s)] where the model has a response table, else the speed it gets [1/kg].
     std::vector<double> push;
@@ -74,7 +75,7 @@ struct StringModel {
     // -- contacts
     std::size_t contact_count = 0;   ///< contacts kept, <= those described
     std::size_t contact_stride = 0;  ///< padded(contact_count)
-    AlignedVector<double>
+    SharedArray<double>
         contact_rows;  ///< S: +phi_k(x_c) from below, -phi_k(x_c) from above; contact_count x stride
     std::vector<double> contact_height;       ///< b_c = +-h_c [m]: gap = S q - b
     std::vector<double> contact_restitution;  ///< e_c
@@ -82,7 +83,7 @@ struct StringModel {
     std::vector<Side> contact_side;
     /// A = h theta D = h theta S diag(w/mu) S^T [m/(N s)]: contact_count x contact_stride, or by grid
     /// distance.
-    AlignedVector<double> compliance;
+    SharedArray<double> compliance;
     std::size_t grid_intervals = 0;        ///< M if all contacts lie at x = j L/M below the string, else 0
     std::vector<std::uint32_t> grid_node;  ///< j of each contact, empty without a grid
     std::vector<std::ptrdiff_t>

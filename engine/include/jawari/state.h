@@ -157,6 +157,21 @@ struct SceneState {
     std::uint64_t frame = 0;  ///< frames rendered since the start; t = frame/output_rate
 };
 
+/// What the storage of a string's state depends on.
+struct StringSizes {
+    std::size_t stride = 0;
+    std::size_t contacts = 0;
+    std::size_t groups = 0;           ///< of contacts, in the certificate
+    std::size_t response_stride = 0;  ///< 0: without a table of responses
+};
+
+StringSizes sizes_of(const StringModel& model);
+/// The larger of each.
+StringSizes larger(const StringSizes& a, const StringSizes& b);
+
+/// A state with room for every model up to the sizes. To be reset() before use.
+StringState allocate_string_state(const StringSizes& sizes);
+
 /// A state at t = 0 for the model. Allocates all that rendering needs.
 SceneState make_state(const SceneModel& model, Metering metering = Metering::Off,
                       Skipping skipping = skip_all);

@@ -1,0 +1,256 @@
+#include "instrument_touch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "excitation.h"
+#include "instrument_exciter.h"
+#include "kernels.h"
+#include "small_system.h"
+
+namespace jawari {
+namespace {
+
+constexpr std::size_t forces = touch_slots + 1;
+constexpr std::size_t exciter_index = touch_slots;
+/// Share of the way to its new pressure that a touch goes in a frame.
+constexpr double pressure_follow = 0.01;
+
+double frame_s(const StringModel& model) {
+    return model.step_s * static_cast<double>(model.steps_per_frame);
+}
+
+double dot(const StringModel& model, const double* a, const double* b) {
+    double sum = 0;
+    kernels::row_products(1, model.stride, model.stride, a, b, &sum);
+    return sum;
+}
+
+/// The touches and, if it acts, the exciter.
+struct ActiveForces {
+    std::array<std::size_t, forces> index{};
+    std::size_t count = 0;
+    std::size_t touches = 0;  ///< those in front
+};
+
+const AlignedVector<double>& row_of(const TouchState& touches, std::size_t i) {
+    return i == exciter_index ? touches.exciter.row : touches.touches[i].row;
+}
+
+ActiveForces active_forces(const TouchState& touches) {
+    ActiveForces active;
+    for (std::size_t i = 0; i < touch_slots; ++i) {
+        if (touches.touches[i].active) active.index[active.count++] = i;
+    }
+    active.touches = active.count;
+    if (touches.exciter.phase != ExciterPhase::None) active.index[active.count++] = exciter_index;
+    return active;
+}
+
+/// middle <- q - h v/2, rise <- its change over the frame in free flight.
+void set_free_path(const StringModel& model, const StringState& string, TouchState& touches) {
+    const double lag = model.step_s / 2;
+    const FlightModel& f = model.flight;
+    const double* q = string.displacement.data();
+    const double* v = string.velocity.data();
+    double* middle = touches.middle.data();
+    double* rise = touches.rise.data();
+    for (std::size_t k = 0; k < model.stride; ++k) {
+        middle[k] = q[k] - lag * v[k];
+        rise[k] = (f.qq[k] - lag * f.vq[k]) * q[k] + (f.qv[k] - lag * f.vv[k]) * v[k];
+    }
+}
+
+/// G_ij = sum_k phi_i (q_held - h v_held/2) phi_j; rise is free to use.
+void set_compliance_of_touches(const StringModel& model, TouchState& touches, const ActiveForces& active) {
+    const double lag = model.step_s / 2;
+    for (std::size_t a = 0; a < active.count; ++a) {
+        const std::size_t i = active.index[a];
+        const double* row = row_of(touches, i).data();
+        double* moved = touches.rise.data();
+        for (std::size_t k = 0; k < model.stride; ++k)
+            moved[k] = row[k] * (model.flight.q_held[k] - lag * model.flight.v_held[k]);
+        for (std::size_t b = 0; b <= a; ++b) {
+            const std::size_t j = active.index[b];
+            const double g = dot(model, row_of(touches, j).data(), moved);
+            touches.compliance[i * forces + j] = g;
+            touches.compliance[j * forces + i] = g;
+        }
+    }
+    touches.outdated = false;
+}
+
+/// What the touches answer: force_i = alone_i + by_exciter_i F_exciter.
+struct TouchAnswer {
+    std::array<double, touch_slots> alone{};
+    std::array<double, touch_slots> by_exciter{};
+};
+
+/// F_i = -(c/T + k/2) (rise_i + sum_j G_ij F_j) - k (w_i - rest_i), solved for the F of the touches.
+TouchAnswer answer_of_touches(const StringModel& model, const TouchState& touches,
+                              const ActiveForces& active) {
+    TouchAnswer answer;
+    SmallSystem<touch_slots> system;
+    const std::size_t n = active.touches;
+    for (std::size_t a = 0; a < n; ++a) {
+        const std::size_t i = active.index[a];
+        const Touch& touch = touches.touches[i];
+        const double stiffness = touch.share * touch.stiffness_N_per_m;
+        const double drag = touch.share * touch.damping_kg_per_s / frame_s(model) + stiffness / 2;
+        for (std::size_t b = 0; b < n; ++b)
+            system.matrix[a][b] =
+                (a == b ? 1.0 : 0.0) + drag * touches.compliance[i * forces + active.index[b]];
+        system.right[a][0] = -drag * dot(model, touch.row.data(), touches.rise.data());
+        if (stiffness > 0) {
+            const double w = dot(model, touch.row.data(), touches.middle.data());
+            system.right[a][0] -= stiffness * (w - touch.rest_m);
+        }
+        system.right[a][1] = -drag * touches.compliance[i * forces + exciter_index];
+    }
+    solve_small_system(system, n);
+    for (std::size_t a = 0; a < n; ++a) {
+        answer.alone[a] = system.right[a][0];
+        answer.by_exciter[a] = system.right[a][1];
+    }
+    return answer;
+}
+
+/// How the exciter's point moves: by `rise` without its force, and by `give` per newton of it.
+StringAtExciter string_at_exciter(const StringModel& model, const TouchState& touches,
+                                  const ActiveForces& active, const TouchAnswer& answer) {
+    StringAtExciter at;
+    const double* row = touches.exciter.row.data();
+    at.frame_s = frame_s(model);
+    at.displacement_m = dot(model, row, touches.middle.data());
+    at.rise_m = dot(model, row, touches.rise.data());
+    at.give_m_per_N = touches.compliance[exciter_index * forces + exciter_index];
+    for (std::size_t a = 0; a < active.touches; ++a) {
+        const double g = touches.compliance[exciter_index * forces + active.index[a]];
+        at.rise_m += g * answer.alone[a];
+        at.give_m_per_N += g * answer.by_exciter[a];
+    }
+    return at;
+}
+
+void leave(Touch& touch) {
+    touch.share_rate = -std::abs(touch.share_rate);
+}
+
+/// Touches come, follow the pressure, and leave.
+void move_touches(TouchState& touches) {
+    for (Touch& touch : touches.touches) {
+        if (!touch.active) continue;
+        touch.damping_kg_per_s += pressure_follow * (touch.pressed_kg_per_s - touch.damping_kg_per_s);
+        touch.share = std::min(1.0, touch.share + touch.share_rate);
+        if (touch.share <= 0) touch.active = false;
+        if (touch.frames_left == 0) continue;
+        touch.frames_left -= 1;
+        if (touch.frames_left == 0) leave(touch);
+    }
+}
+
+}  // namespace
+
+TouchState make_touch_state(std::size_t stride) {
+    TouchState touches;
+    for (Touch& touch : touches.touches) touch.row.assign(stride, 0.0);
+    touches.exciter.row.assign(stride, 0.0);
+    touches.middle.assign(stride, 0.0);
+    touches.rise.assign(stride, 0.0);
+    return touches;
+}
+
+void lift_all_touches(TouchState& touches) JAWARI_REALTIME {
+    for (Touch& touch : touches.touches) touch.active = false;
+    touches.exciter.phase = ExciterPhase::None;
+    touches.outdated = true;
+}
+
+void lay_touch(const StringModel& model, const StringState& string, TouchState& touches, TouchSlot slot,
+               const TouchPlan& plan) JAWARI_REALTIME {
+    Touch& touch = touch_at(touches, slot);
+    const bool eases = plan.ease_frames > 0;
+    if (!touch.active) touch.share = eases ? 0.0 : 1.0;
+    touch.share_rate = eases ? 1 / plan.ease_frames : 1.0;
+    touch.active = true;
+    touch.damping_kg_per_s = plan.damping_kg_per_s;
+    touch.pressed_kg_per_s = plan.damping_kg_per_s;
+    touch.stiffness_N_per_m = plan.stiffness_N_per_m;
+    touch.frames_left = plan.frames;
+    touches.outdated = true;
+    write_point_row(model, plan.x_m, plan.width_m, touch.row.data());
+    touch.rest_m = dot(model, touch.row.data(), string.displacement.data()) -
+                   model.step_s / 2 * dot(model, touch.row.data(), string.velocity.data());
+}
+
+void press_touch(TouchState& touches, TouchSlot slot, double damping_kg_per_s) JAWARI_REALTIME {
+    Touch& touch = touch_at(touches, slot);
+    touch.pressed_kg_per_s = damping_kg_per_s;
+    touch.share_rate = std::abs(touch.share_rate);
+}
+
+void lift_touch(TouchState& touches, TouchSlot slot) JAWARI_REALTIME {
+    leave(touch_at(touches, slot));
+}
+
+void apply_touches(const StringModel& model, StringState& string, TouchState& touches) JAWARI_REALTIME {
+    clear_excitation(model, string);
+    move_touches(touches);
+    for (Touch& touch : touches.touches) touch.force_N = 0;
+    touches.exciter.force_N = 0;
+    const ActiveForces active = active_forces(touches);
+    const bool excites = active.count > active.touches;
+    if (active.count == 0 || (string.asleep && !excites)) return;
+    if (touches.outdated) set_compliance_of_touches(model, touches, active);
+    set_free_path(model, string, touches);
+    const TouchAnswer answer = answer_of_touches(model, touches, active);
+    double force_N = 0;
+    if (excites) {
+        force_N = exciter_force(string_at_exciter(model, touches, active, answer), touches.exciter);
+        touches.exciter.force_N = force_N;
+        if (force_N != 0) add_force(model, string, touches.exciter.row.data(), force_N, 0);
+    }
+    for (std::size_t a = 0; a < active.touches; ++a) {
+        Touch& touch = touches.touches[active.index[a]];
+        touch.force_N = answer.alone[a] + answer.by_exciter[a] * force_N;
+        if (touch.force_N != 0) add_force(model, string, touch.row.data(), touch.force_N, 0);
+    }
+}
+
+void meter_touches(const StringModel& model, const StringState& string, TouchState& touches,
+                   PlayerWork& work) JAWARI_REALTIME {
+    if (!string.excitation.active) return;
+    const double lag = model.step_s / 2;
+    double* path = touches.rise.data();
+    for (std::size_t k = 0; k < model.stride; ++k)
+        path[k] = string.displacement[k] - lag * string.velocity[k] - touches.middle[k];
+    for (const Touch& touch : touches.touches) {
+        if (touch.force_N == 0) continue;
+        work.touches_J += touch.force_N * dot(model, touch.row.data(), path);
+    }
+    const ExciterState& exciter = touches.exciter;
+    if (exciter.force_N != 0) work.exciters_J += exciter.force_N * dot(model, exciter.row.data(), path);
+}
+
+void write_point_row(const StringModel& model, double x, double width_m, double* row) JAWARI_REALTIME {
+    // sin(k a) and sin(k b) by rotation; b = 0 for a point.
+    const double scale = std::sqrt(2 / model.length_m);
+    const double a = std::numbers::pi * x / model.length_m;
+    const double b = std::numbers::pi * width_m / (2 * model.length_m);
+    const double cos_a = std::cos(a), sin_a = std::sin(a), cos_b = std::cos(b), sin_b = std::sin(b);
+    double ca = 1, sa = 0, cb = 1, sb = 0;
+    for (std::size_t k = 0; k < model.mode_count; ++k) {
+        const double next_sa = sa * cos_a + ca * sin_a;
+        ca = ca * cos_a - sa * sin_a;
+        sa = next_sa;
+        const double next_sb = sb * cos_b + cb * sin_b;
+        cb = cb * cos_b - sb * sin_b;
+        sb = next_sb;
+        const double z = static_cast<double>(k + 1) * b;
+        row[k] = scale * sa * (z > 0 ? sb / z : 1.0);
+    }
+    std::fill(row + model.mode_count, row + model.stride, 0.0);
+}
+
+}  // namespace jawari
