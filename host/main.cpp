@@ -7,6 +7,7 @@
 
 #include "common/command.h"
 #include "common/interrupt.h"
+#include "info/info_command.h"
 #include "render/render_command.h"
 #include "simulate/simulate_command.h"
 
@@ -18,6 +19,8 @@ constexpr const char* footer =
     "  jawari simulate lab/bass --plot bass.svg\n"
     "  jawari simulate my-scene.json --out probes.csv --stats -\n"
     "  jawari render song.mid --preset bass-fretted -o song.wav\n"
+    "  jawari presets\n"
+    "  jawari info bass-fretted\n"
     "\n"
     "Exit codes: 0 done; 2 wrong command line; 3 invalid input file; 4 a file cannot be read or written;\n"
     "5 internal error; 130 interrupted; 143 terminated. Every failure prints one line on standard error.";
@@ -38,6 +41,8 @@ MaybeError run(int argc, char** argv, int& help_exit_code) {
     Command command;
     add_simulate_command(app, command);
     add_render_command(app, command);
+    add_presets_command(app, command);
+    add_info_command(app, command);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {

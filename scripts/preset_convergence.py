@@ -29,6 +29,7 @@ def note_file(key, velocity):
 
 
 def read_float_wav(path):
+    """The left channel."""
     data = path.read_bytes()
     at = data.index(b"data")
     size = struct.unpack("<I", data[at + 4:at + 8])[0]

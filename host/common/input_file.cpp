@@ -33,6 +33,7 @@ Outcome<std::string> read_all(int descriptor, const std::string& path, std::size
 }  // namespace
 
 Outcome<std::string> read_file(const std::string& path, std::size_t longest) {
+    if (path == "-") return read_all(STDIN_FILENO, "standard input", longest);
     const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) return file_error(path, errno);
     auto text = read_all(descriptor, path, longest);

@@ -22,7 +22,7 @@ struct Slot {
     std::atomic<int> state{0};  // 0 free, 1 being written, 2 in use
     std::array<char, PATH_MAX> path{};
 };
-std::array<Slot, 8> slots;
+std::array<Slot, 160> slots;  // enough for a file per string of the largest instrument
 
 extern "C" void on_signal(int signal) {
     if (received_signal.exchange(signal) == 0) return;

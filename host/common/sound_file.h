@@ -1,9 +1,12 @@
-// A WAV file that appears whole or not at all.
+// A WAV file that appears whole or not at all. A header is written last, so pipes, devices and standard
+// output get the finished file from a temporary one.
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "common/output_file.h"
 
@@ -17,11 +20,19 @@ struct SampleEncoding {
     unsigned bytes;
 };
 
+/// Text for the INFO list and the broadcast extension ("bext", EBU Tech 3285). Nothing that changes from run
+/// to run: equal runs give equal files.
+struct SoundTags {
+    std::string title;
+    std::string comment;
+};
+
 class SoundFile {
   public:
-    /// `most_frames` decides between WAV and, beyond 4 GB, RF64.
+    /// `most_frames` decides between WAV and, beyond 4 GB, RF64. Empty tags are left out.
     static Outcome<SoundFile> create(OutputFile file, std::uint32_t rate_hz, std::size_t channels,
-                                     SampleEncoding encoding, std::uint64_t most_frames);
+                                     SampleEncoding encoding, std::uint64_t most_frames,
+                                     const SoundTags& tags = {});
 
     /// Interleaved samples, a whole number of frames.
     MaybeError write(std::span<const double> samples);
@@ -31,11 +42,19 @@ class SoundFile {
     struct Close {
         void operator()(sf_private_tag* sound) const;
     };
-    SoundFile(OutputFile file, std::unique_ptr<sf_private_tag, Close> sound, SampleEncoding encoding)
-        : file_(std::move(file)), sound_(std::move(sound)), encoding_(encoding) {}
+    struct CloseStream {
+        void operator()(std::FILE* stream) const { std::fclose(stream); }
+    };
+    using Stream = std::unique_ptr<std::FILE, CloseStream>;
+    SoundFile(OutputFile file, Stream spool, std::unique_ptr<sf_private_tag, Close> sound,
+              SampleEncoding encoding)
+        : file_(std::move(file)), spool_(std::move(spool)), sound_(std::move(sound)), encoding_(encoding) {}
     [[nodiscard]] MaybeError failure() const;
+    [[nodiscard]] MaybeError check_size(int descriptor) const;
+    MaybeError copy_spool();
 
     OutputFile file_;
+    Stream spool_;  ///< nameless file that a pipe's sound is written to; null for a regular file
     std::unique_ptr<sf_private_tag, Close> sound_;
     SampleEncoding encoding_;
     std::uint64_t bytes_ = 0;

@@ -3,8 +3,6 @@
 #include <utility>
 
 #include "common/builtin.h"
-#include "common/input_file.h"
-#include "common/text.h"
 #include "json/parse.h"
 #include "preset/read_obstacles.h"
 #include "preset/read_output.h"
@@ -20,7 +18,6 @@ using json::Problems;
 using json::Value;
 
 constexpr std::string_view schema = "jawari.preset/2";
-constexpr std::size_t longest_preset_bytes = std::size_t{4} << 20U;
 
 /// First of all, so that a file of another kind is called that and not blamed for its keys.
 void check_schema(const Value& document, Problems& problems) {
@@ -92,19 +89,6 @@ Outcome<Preset> read_preset(const std::string& text, const std::string& file) {
     Preset preset{file, read_document(document.value(), problems)};
     if (problems.any()) return invalid_input(file, *problems.first());
     return preset;
-}
-
-Outcome<Preset> load_preset(const std::string& argument) {
-    if (!path_exists(argument)) {
-        const BuiltinFile* builtin = find_builtin("instruments", argument);
-        if (builtin != nullptr) return read_preset(std::string(builtin->text), argument);
-        return Error{ExitCode::File, printable(argument) +
-                                         ": no such file, and no built-in preset of that name (built-in: " +
-                                         join(builtin_preset_names()) + ")"};
-    }
-    auto text = read_file(argument, longest_preset_bytes);
-    if (!text) return text.error();
-    return read_preset(text.value(), argument);
 }
 
 std::vector<std::string> builtin_preset_names() {

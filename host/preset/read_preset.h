@@ -18,9 +18,6 @@ struct Preset {
 /// Ranges of physical values are checked by compile_instrument(), which spells its places like this format.
 Outcome<Preset> read_preset(const std::string& text, const std::string& file);
 
-/// `argument`: a file, or the name of a built-in instrument if no file of that name exists.
-Outcome<Preset> load_preset(const std::string& argument);
-
 /// Sorted.
 std::vector<std::string> builtin_preset_names();
 

@@ -3,6 +3,7 @@
 #include <sndfile.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace jawari::host {
@@ -23,20 +24,27 @@ SampleEncoding encoding(SampleFormat format) {
 
 }  // namespace
 
-Outcome<AudioFile> AudioFile::create(const std::string& path, std::uint32_t rate_hz, SampleFormat format,
-                                     std::uint64_t most_frames) {
+Outcome<AudioFile> AudioFile::create(const std::string& path, std::size_t channels,
+                                     const AudioFormat& format) {
     auto file = OutputFile::create(path);
     if (!file) return file.error();
-    auto sound = SoundFile::create(std::move(file.value()), rate_hz, 1, encoding(format), most_frames);
+    auto sound = SoundFile::create(std::move(file.value()), format.rate_hz, channels,
+                                   encoding(format.samples), format.most_frames, format.tags);
     if (!sound) return sound.error();
-    return AudioFile(std::move(sound.value()), format);
+    return AudioFile(std::move(sound.value()), format.samples);
 }
 
-MaybeError AudioFile::write(std::span<const double> samples) {
-    if (format_ == SampleFormat::Float) return sound_.write(samples);
-    clamped_.assign(samples.begin(), samples.end());
-    for (double& sample : clamped_) sample = std::clamp(sample, -1.0, 1.0);
-    return sound_.write(clamped_);
+MaybeError AudioFile::write(std::span<const std::span<const double>> channels) {
+    const std::size_t frames = channels.empty() ? 0 : channels.front().size();
+    interleaved_.clear();
+    for (std::size_t n = 0; n < frames; ++n) {
+        for (const auto& channel : channels) {
+            const double sample = channel[n];
+            if (std::abs(sample) > 1) clipped_ += 1;
+            interleaved_.push_back(format_ == SampleFormat::Float ? sample : std::clamp(sample, -1.0, 1.0));
+        }
+    }
+    return sound_.write(interleaved_);
 }
 
 }  // namespace jawari::host

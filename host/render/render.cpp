@@ -1,165 +1,240 @@
 #include "render/render.h"
 
-#include <cmath>
-#include <cstdint>
+#include <algorithm>
+#include <atomic>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
+#include <future>
 #include <optional>
-#include <span>
+#include <set>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
-#include "common/cpu_clock.h"
-#include "common/input_file.h"
 #include "common/interrupt.h"
 #include "common/output_file.h"
 #include "common/text.h"
-#include "jawari/instrument_model.h"
-#include "midi/midi_file.h"
-#include "plot/audio_plot.h"
-#include "plot/gnuplot.h"
-#include "preset/read_preset.h"
-#include "render/audio_file.h"
-#include "render/midi_events.h"
-#include "render/render_score.h"
-#include "render/render_stats.h"
+#include "library/preset_library.h"
+#include "library/program_presets.h"
+#include "midi/guitar_mode.h"
+#include "midi/read_midi_map.h"
+#include "render/progress_board.h"
+#include "render/render_job.h"
+#include "tuning/tuning.h"
 
 namespace jawari::host {
 
 namespace {
 
-Outcome<MidiScore> load_score(const std::string& path, std::uint32_t rate_hz) {
-    const auto text = read_file(path, max_midi_file_bytes);
-    if (!text) return text.error();
-    const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.value().data());
-    const auto file = parse_midi(std::span(bytes, text.value().size()));
-    if (!file) return invalid_input(path, file.failure());
-    return midi_score(file.value(), rate_hz);
+bool is_folder(const std::string& path) {
+    std::error_code ignored;
+    return path.ends_with('/') || std::filesystem::is_directory(path, ignored);
+}
+
+// ------------------------------------------------------------------------------------------ the command line
+
+MaybeError check_several(const RenderOptions& options) {
+    if (options.midi.size() == 1) return std::nullopt;
+    if (!is_folder(options.out)) return usage_error("--out", options.out, "a folder, for several MIDI files");
+    const std::pair<const char*, const std::string*> single[] = {
+        {"--stats", &options.stats}, {"--plot", &options.plot}, {"--stems", &options.stems}};
+    for (const auto& [option, value] : single)
+        if (!value->empty()) return usage_error(option, *value, "only with one MIDI file");
+    if (std::count(options.midi.begin(), options.midi.end(), "-") > 0)
+        return usage_error("MIDI", "-", "standard input only as the one file");
+    return std::nullopt;
 }
 
 MaybeError check_names(const RenderOptions& options) {
-    if (options.out == options.stats || options.out == options.plot) {
-        return usage_error("--out", options.out, "another name than that of --stats and --plot");
-    }
-    if (!options.stats.empty() && options.stats == options.plot) {
-        return usage_error("--stats", options.stats, "another name than that of --plot");
+    std::set<std::string> taken;
+    const std::pair<const char*, const std::string*> outputs[] = {{"--out", &options.out},
+                                                                  {"--stems", &options.stems},
+                                                                  {"--stats", &options.stats},
+                                                                  {"--plot", &options.plot}};
+    for (const auto& [option, value] : outputs) {
+        const bool shared = !value->empty() && !is_folder(*value) && !taken.insert(*value).second;
+        if (shared) return usage_error(option, *value, "another name than that of the other outputs");
     }
     return std::nullopt;
 }
 
-/// Opened before any work so that a wrong path is known at once.
-MaybeError open_target(const std::string& path, std::optional<OutputFile>& target) {
-    if (path.empty()) return std::nullopt;
-    auto file = OutputFile::create(path);
-    if (!file) return file.error();
-    target.emplace(std::move(file.value()));
+MaybeError check_dependencies(const RenderOptions& options) {
+    if (options.tuning.empty() && !options.keyboard_map.empty())
+        return usage_error("--keyboard-map", options.keyboard_map, "only with --tuning");
+    if (options.tuning.empty() && options.move_frets)
+        return usage_error("--move-frets", "given", "only with --tuning");
+    if (options.guitar_channel > 0 && options.preset == automatic_preset)
+        return usage_error("--guitar-mode", std::to_string(options.guitar_channel),
+                           "only with --preset NAME");
     return std::nullopt;
 }
 
-void print_notices(const InstrumentDescription& instrument, const MidiScore& score) {
-    if (instrument.law == ImpactLaw::Signorini && instrument.frets.restitution > 0) {
-        std::fputs("notice: the law signorini ignores the restitution of the frets\n", stderr);
+/// One job a file; in a folder each WAV file has its MIDI file's name.
+Outcome<std::vector<RenderJob>> jobs_of(const RenderOptions& options) {
+    std::vector<RenderJob> jobs;
+    std::set<std::string> taken;
+    for (const std::string& midi : options.midi) {
+        if (options.out == "-" || !is_folder(options.out)) {
+            jobs.push_back({midi, options.out});
+            continue;
+        }
+        const std::string stem = midi == "-" ? "standard-input" : std::filesystem::path(midi).stem().string();
+        const std::string out = (std::filesystem::path(options.out) / (stem + ".wav")).string();
+        if (!taken.insert(out).second)
+            return usage_error("MIDI", midi,
+                               "files of different names, for they become WAV files in one folder");
+        jobs.push_back({midi, out});
     }
-    if (score.pitch_bends > 0) {
-        std::fprintf(stderr, "notice: %llu pitch-bend messages are ignored\n",
-                     static_cast<unsigned long long>(score.pitch_bends));
+    return jobs;
+}
+
+// --------------------------------------------------------------------------------------------- what all
+// share
+
+Outcome<InstrumentSettings> instrument_settings(const RenderOptions& options) {
+    InstrumentSettings settings;
+    settings.output_rate_hz = options.rate_hz;
+    settings.quality = options.quality.value_or(Quality::Live);
+    settings.move_frets = options.move_frets;
+    if (options.tuning.empty()) return settings;
+    const auto tuning = load_tuning(options.tuning, options.keyboard_map);
+    if (!tuning) return tuning.error();
+    settings.tuning = tuning.value();
+    return settings;
+}
+
+std::optional<std::string> general_midi_preset(int channel, int bank, int program) {
+    if (channel == drum_channel) return std::nullopt;
+    const auto preset = program_preset(bank, program);
+    if (!preset || !preset_exists(std::string(*preset))) return std::nullopt;
+    return std::string(*preset);
+}
+
+/// The engine reads the other parameters; the bend range belongs to the interpreter.
+void set_parameters(const RenderOptions& options, ScoreRules& rules) {
+    for (const auto& [parameter, value] : options.parameters) {
+        if (parameter == ParameterId::BendRange) {
+            rules.interpreter.bend_range_semitones = value;
+        } else {
+            rules.parameters.emplace_back(parameter, value);
+        }
     }
 }
 
-void warn_of_clipping(const RenderOptions& options, const RenderStats& stats) {
-    if (stats.score.clipped == 0) return;
-    const double peak = *peak_dbfs(stats);
-    const bool kept = options.format == SampleFormat::Float;
-    std::fprintf(stderr, "warning: %s: %llu samples beyond full scale %s, peak %+.1f dBFS; use --gain %.0f\n",
-                 printable(options.out).c_str(), static_cast<unsigned long long>(stats.score.clipped),
-                 kept ? "kept" : "clipped", peak, std::floor(options.gain_db - peak - 1));
+Outcome<ScoreRules> score_rules(const RenderOptions& options, const InstrumentSettings& instruments) {
+    ScoreRules rules;
+    rules.preset = options.preset;
+    set_parameters(options, rules);
+    if (!options.midi_map.empty()) {
+        const auto map = load_midi_map(options.midi_map);
+        if (!map) return map.error();
+        rules.interpreter.map = map.value();
+    }
+    if (options.preset == automatic_preset) {
+        rules.choose = general_midi_preset;
+        return rules;
+    }
+    const auto preset = load_with(options.preset, instruments);
+    if (!preset) return preset.error();
+    const InstrumentDescription& instrument = preset.value().instrument;
+    if (options.guitar_channel > 0 || instrument.play == PlayMode::Guitar) {
+        const int first = std::max(1, options.guitar_channel) - 1;
+        if (auto error = set_guitar_mode(instrument, first, rules.interpreter)) return *error;
+    }
+    return rules;
 }
 
-MaybeError print_summary(const RenderOptions& options, const RenderStats& stats) {
-    if (!options.stats.empty()) return std::nullopt;
+// ----------------------------------------------------------------------------------------------- the work
+
+MaybeError print_summary(const RenderJob& job, const RenderOptions& options, const RenderedJob& result) {
+    if (!options.stats.empty() || options.out == "-") return std::nullopt;
     auto output = OutputFile::create("-");
     if (!output) return output.error();
-    if (auto error = output.value().write(stats_summary(stats))) return error;
+    std::string text = stats_summary(result.stats);
+    if (options.midi.size() > 1) text = printable(job.out) + "\n" + text;
+    if (auto error = output.value().write(text)) return error;
     return output.value().commit();
 }
 
-/// The files that the command line asks for.
-struct Outputs {
-    AudioFile audio;
-    std::optional<OutputFile> stats;
-    std::vector<float> plotted;  ///< the sound, if there is a picture to draw
-};
-
-Outcome<Outputs> open_outputs(const RenderOptions& options, std::uint64_t most_frames) {
-    auto audio = AudioFile::create(options.out, options.rate_hz, options.format.value_or(SampleFormat::Pcm24),
-                                   most_frames);
-    if (!audio) return audio.error();
-    Outputs outputs{std::move(audio.value()), {}, {}};
-    if (auto error = open_target(options.stats, outputs.stats)) return *error;
-    std::optional<OutputFile> plot_path;  // the plot is drawn by itself, later; only its path is tried
-    if (auto error = open_target(options.plot, plot_path)) return *error;
-    if (!options.plot.empty()) {
-        if (auto error = plot::can_plot(options.plot)) return *error;
-    }
-    return outputs;
+void print_messages(const RenderedJob& result) {
+    for (const std::string& message : result.messages) std::fprintf(stderr, "%s\n", message.c_str());
 }
 
-/// Everything is written before the first file gets its name.
-MaybeError finish(const RenderOptions& options, const RenderStats& stats, Outputs& outputs) {
-    if (outputs.stats) {
-        if (auto error = outputs.stats->write(stats_json(stats))) return error;
-        if (auto error = outputs.stats->flush()) return error;
+/// Workers take jobs in order until none is left.
+class Workers {
+  public:
+    Workers(const std::vector<RenderJob>& jobs, const RenderContext& context)
+        : jobs_(jobs), context_(context), board_(jobs.size()), results_(jobs.size()) {}
+
+    void run(std::size_t threads) {
+        std::vector<std::future<void>> running;
+        for (std::size_t i = 1; i < threads; ++i)
+            running.push_back(std::async(std::launch::async, [this] { work(); }));
+        work();
+        for (auto& each : running) each.get();  // hands on what a thread may have thrown
+        board_.clear();
     }
-    if (!options.plot.empty()) {
-        const std::string title =
-            std::filesystem::path(options.midi).filename().string() + ", " + options.preset;
-        if (auto error = plot_audio(outputs.plotted, options.rate_hz, title, options.plot)) return error;
+
+    [[nodiscard]] const std::optional<Outcome<RenderedJob>>& result(std::size_t job) const {
+        return results_[job];
     }
-    if (auto error = outputs.audio.commit()) return error;
-    return outputs.stats ? outputs.stats->commit() : std::nullopt;
+
+  private:
+    void work() {
+        for (std::size_t job = next_++; job < jobs_.size(); job = next_++) {
+            if (interruption()) return;
+            results_[job] = render_job(jobs_[job], context_,
+                                       [this, job](double fraction) { board_.update(job, fraction); });
+            board_.update(job, 1);
+        }
+    }
+
+    const std::vector<RenderJob>& jobs_;
+    const RenderContext& context_;
+    ProgressBoard board_;
+    std::vector<std::optional<Outcome<RenderedJob>>> results_;
+    std::atomic<std::size_t> next_{0};
+};
+
+MaybeError print_results(const std::vector<RenderJob>& jobs, const RenderOptions& options,
+                         const Workers& workers) {
+    MaybeError last;
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        const auto& result = workers.result(i);
+        if (!result) continue;
+        if (!*result) {
+            if (last) report(*last);
+            last = result->error();
+            continue;
+        }
+        print_messages(result->value());
+        if (auto error = print_summary(jobs[i], options, result->value())) return error;
+    }
+    return last;
 }
 
 }  // namespace
 
 MaybeError render(const RenderOptions& options) {
-    if (auto error = check_names(options)) return error;
-    const auto preset = load_preset(options.preset);
-    if (!preset) return preset.error();
-    const auto score = load_score(options.midi, options.rate_hz);
-    if (!score) return score.error();
-    const ScoreSettings settings{std::pow(10.0, options.gain_db / 20), options.tail_s};
-    auto outputs = open_outputs(options, most_frames(score.value(), settings, options.rate_hz));
-    if (!outputs) return outputs.error();
+    for (const auto check : {check_several, check_names, check_dependencies})
+        if (auto error = check(options)) return error;
+    const auto jobs = jobs_of(options);
+    if (!jobs) return jobs.error();
+    const auto settings = instrument_settings(options);
+    if (!settings) return settings.error();
+    const auto rules = score_rules(options, settings.value());
+    if (!rules) return rules.error();
+    InstrumentCache instruments(settings.value());
+    const RenderContext context{options, rules.value(), instruments};
 
-    RenderStats stats;
-    stats.midi = options.midi;
-    stats.preset = options.preset;
-    stats.pitch_bends = score.value().pitch_bends;
-    const double started = thread_cpu_s();
-    const auto model = compile_instrument(preset.value().instrument, options.rate_hz);
-    stats.cpu_compile_s = thread_cpu_s() - started;
-    if (!model) return invalid_input(preset.value().file, model.failure());
+    Workers workers(jobs.value(), context);
+    const std::size_t wanted =
+        options.jobs > 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
+    workers.run(std::min(wanted, jobs.value().size()));
     if (auto stop = interruption()) return stop;
-    stats.output_rate_hz = model.value().output_rate_hz;
-    stats.contact_rate_hz = model.value().contact_rate_hz;
-    print_notices(preset.value().instrument, score.value());
-
-    const SampleSink sink = [&](std::span<const double> block) {
-        const double begun = thread_cpu_s();
-        if (!options.plot.empty()) {
-            for (const double sample : block) outputs.value().plotted.push_back(static_cast<float>(sample));
-        }
-        auto error = outputs.value().audio.write(block);
-        stats.cpu_output_s += thread_cpu_s() - begun;
-        return error;
-    };
-    const auto rendered = render_score(model.value(), score.value(), settings, sink);
-    if (!rendered) return rendered.error();
-    stats.score = rendered.value();
-    if (auto error = finish(options, stats, outputs.value())) return error;
-    warn_of_clipping(options, stats);
-    return print_summary(options, stats);
+    return print_results(jobs.value(), options, workers);
 }
 
 }  // namespace jawari::host

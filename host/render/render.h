@@ -1,4 +1,4 @@
-// `jawari render`: a MIDI file becomes a WAV file.
+// `jawari render`: MIDI files become WAV files.
 #pragma once
 
 #include "common/error.h"
@@ -6,6 +6,8 @@
 
 namespace jawari::host {
 
+/// Prints notices, warnings and summaries. Of several files each is rendered, whatever becomes of the others;
+/// every failure prints its line, and the last one is returned.
 MaybeError render(const RenderOptions& options);
 
 }  // namespace jawari::host

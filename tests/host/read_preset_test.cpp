@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "jawari/instrument_render.h"
+#include "library/preset_library.h"
 #include "temporary_folder.h"
 
 namespace jawari::host {

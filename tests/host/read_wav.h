@@ -1,4 +1,4 @@
-// Reads mono 32-bit float WAV files, without the library that writes them.
+// Reads 32-bit float WAV files, without the library that writes them.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,10 @@ struct Wav {
     std::uint32_t rate_hz = 0;
     std::uint16_t format = 0;  ///< 1: PCM, 3: float
     std::uint16_t bits = 0;
+    std::uint16_t channels = 0;
     std::string data;
 
-    /// Precondition: 32-bit float.
+    /// Interleaved. Precondition: 32-bit float.
     [[nodiscard]] std::vector<double> samples() const {
         std::vector<double> values;
         for (std::size_t i = 0; i + 4 <= data.size(); i += 4) {
@@ -24,6 +25,14 @@ struct Wav {
             std::memcpy(&value, data.data() + i, 4);
             values.push_back(static_cast<double>(value));
         }
+        return values;
+    }
+
+    /// Of one channel, from 0.
+    [[nodiscard]] std::vector<double> channel(std::size_t index) const {
+        const std::vector<double> all = samples();
+        std::vector<double> values;
+        for (std::size_t i = index; i < all.size(); i += channels) values.push_back(all[i]);
         return values;
     }
 };
@@ -42,6 +51,7 @@ inline Wav read_wav(const std::string& path) {
         const std::uint32_t size = little_endian(at + 4, 4);
         if (tag == "fmt ") {
             wav.format = static_cast<std::uint16_t>(little_endian(at + 8, 2));
+            wav.channels = static_cast<std::uint16_t>(little_endian(at + 10, 2));
             wav.rate_hz = little_endian(at + 12, 4);
             wav.bits = static_cast<std::uint16_t>(little_endian(at + 22, 2));
         }
