@@ -2,6 +2,7 @@
 function(jawari_embed_presets OUTPUT)
   set(root ${PROJECT_SOURCE_DIR}/presets)
   file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${root} ${root}/*.json)
+  list(FILTER files EXCLUDE REGEX "\\.schema\\.json$")  # for editors
   list(SORT files)
   set(table "")
   foreach(file IN LISTS files)

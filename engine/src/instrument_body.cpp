@@ -55,8 +55,8 @@ BodyModel body_model(const InstrumentDescription& instrument, double output_rate
         const double omega = 2 * std::numbers::pi * mode.frequency_hz;
         const double sigma = std::min(std::log(1000.0) / mode.t60_s, 0.9 * omega);
         set_mode(body, i, {omega, sigma}, 1 / output_rate_hz);
-        body.gain_left[i] = instrument.gain * mode.gain_left;
-        body.gain_right[i] = instrument.gain * mode.gain_right;
+        body.gain_left[i] = mode.gain_left;
+        body.gain_right[i] = mode.gain_right;
     }
     return body;
 }
@@ -92,7 +92,10 @@ StereoSample advance_body(const BodyModel& body, BodyState& state, double force_
         std::fill(state.v.begin(), state.v.end(), 0.0);
         state.force_N = 0;
         state.ringing = false;
-        if (lost) return {};
+        if (lost) {
+            state.nonfinite_resets += 1;
+            return {};
+        }
     }
     return sample;
 }

@@ -88,7 +88,7 @@ double hammer_force(const StringAtExciter& at, ExciterState& hammer) {
     hammer.frame += 1;
     const bool leaves = hammer.has_touched && after < 0 && after < step.before;
     const bool too_long = static_cast<double>(hammer.frame) * T > longest_stroke_s;
-    if (leaves || too_long || !std::isfinite(force)) hammer.phase = ExciterPhase::None;
+    if (leaves || too_long || !std::isfinite(hammer.position_m)) hammer.phase = ExciterPhase::None;
     return std::isfinite(force) ? force : 0.0;
 }
 
@@ -161,6 +161,9 @@ void begin_hammer(const StringModel& model, const StringState& string, ExciterSt
                   double hardness) JAWARI_REALTIME {
     begin(exciter, ExciterPhase::Hammer);
     write_point_row(model, x, width_m, exciter.row.data());
+    if (hammer.side == Side::Above) {  // the same in a world upside down
+        for (std::size_t k = 0; k < model.stride; ++k) exciter.row[k] = -exciter.row[k];
+    }
     double q = 0;
     double v = 0;
     kernels::row_products(1, model.stride, model.stride, exciter.row.data(), string.displacement.data(), &q);

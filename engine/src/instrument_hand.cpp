@@ -17,6 +17,8 @@ constexpr double dead_share = 0.21;
 /// In which hands come down on a ringing string and leave it; a stopping hand is quicker.
 constexpr double hand_ease_s = 0.01;
 constexpr double left_ease_s = 0.003;
+/// How far the damping hand sweeps to either side: share of the speaking length.
+constexpr double hand_sweep = 0.08;
 
 }  // namespace
 
@@ -45,6 +47,7 @@ void lay_damping_hand(const InstrumentModel& model, const InstrumentStringModel&
         const TouchSlot slot = i == 0 ? TouchSlot::Release : TouchSlot::ReleaseSecond;
         lay_touch(voice_model(string, voice), voice.string, voice.touches, slot,
                   {.x_m = x,
+                   .sweep_m = hand_sweep * stopped.string.length_m,
                    .damping_kg_per_s = damping_for(stopped, x, 2 * t60_s),
                    .ease_frames = hand_ease_s * model.output_rate_hz});
     }

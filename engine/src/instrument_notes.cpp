@@ -65,6 +65,7 @@ void play_course(const InstrumentModel& model, InstrumentState& state, std::size
             stroke_string(model, state, s, stroke);
         } else {
             const double delay_s = model.hand.course_delay_s * static_cast<double>(i);
+            state.waiting = true;
             state.strings[s].pending = {
                 .active = true, .delay = frames_of(delay_s, model.output_rate_hz), .stroke = stroke};
         }

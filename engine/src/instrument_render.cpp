@@ -1,5 +1,7 @@
 #include "jawari/instrument_render.h"
 
+#include <algorithm>
+
 #include "instrument_body.h"
 #include "instrument_control.h"
 #include "instrument_notes.h"
@@ -34,17 +36,22 @@ VoiceSignals advance_string(const InstrumentModel& model, InstrumentState& state
 
 StereoSample advance(const InstrumentModel& model, InstrumentState& state, std::span<double* const> strings,
                      std::size_t n, double smoothing) {
-    if (state.frame % control_frames == 0) follow_controls(model, state);
+    if (state.busy && state.frame % control_frames == 0) follow_controls(model, state);
     StereoSample sample;
     double bridge_N = 0;
-    for (std::size_t s = 0; s < model.strings.size(); ++s) {
+    bool busy = false;
+    const std::size_t heard =
+        state.busy ? model.strings.size() : std::min(strings.size(), model.strings.size());
+    for (std::size_t s = 0; s < heard; ++s) {
         VoiceSignals signals;
         if (state.strings[s].busy > 0) signals = advance_string(model, state, s, smoothing);
         if (s < strings.size()) strings[s][n] = signals.pickups;
         sample.left += signals.left;
         sample.right += signals.right;
         bridge_N += signals.bridge_N;
+        busy = busy || state.strings[s].busy > 0;
     }
+    state.busy = busy;
     const StereoSample body = advance_body(model.body, state.body, bridge_N);
     sample.left += body.left;
     sample.right += body.right;

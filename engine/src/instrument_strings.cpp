@@ -103,6 +103,7 @@ void start_from_rest(const InstrumentModel& model, InstrumentState& state, std::
     start_voice(model, model.strings[s], string.voices[v], stroke.fret, stroke.channel,
                 parameter(state, stroke.channel, ParameterId::Action));
     string.busy += 1;
+    state.busy = true;
     Voice& voice = take_note(model, state, s, v, stroke.channel);
     voice.gains = voice.targets;
     voice.bend.target = bend_target(model, state, s);
@@ -130,6 +131,7 @@ void wait_for_motion(const InstrumentModel& model, InstrumentState& state, std::
     make_room(model.strings[s], string, state.counters);
     if (string.pending.active) state.counters.ignored_notes += 1;
     string.pending = {.active = true, .delay = 0, .stroke = stroke};
+    state.waiting = true;
     state.counters.delayed_notes += 1;
 }
 
@@ -144,6 +146,7 @@ Voice& cross_over(const InstrumentModel& model, InstrumentState& state, std::siz
     start_voice(model, model.strings[s], string.voices[v], stroke.fret, stroke.channel,
                 parameter(state, stroke.channel, ParameterId::Action));
     string.busy += 1;
+    state.busy = true;
     Voice& voice = string.voices[v];
     carry_over(model.strings[s], old, voice, string.scratch, state.work);
     fade_voice(old);
@@ -261,9 +264,12 @@ void silence_string(const InstrumentModel& model, InstrumentState& state, std::s
 void start_pending_strokes(const InstrumentModel& model, InstrumentState& state) JAWARI_REALTIME {
     if (state.strokes_until > state.frame) return;
     state.strokes_until = state.frame + 1;
+    if (!state.waiting) return;
+    bool waiting = false;
     for (std::size_t s = 0; s < state.strings.size(); ++s) {
         InstrumentStringState& string = state.strings[s];
         if (!string.pending.active) continue;
+        waiting = true;
         if (string.pending.delay > 0) {
             string.pending.delay -= 1;
             continue;
@@ -275,6 +281,7 @@ void start_pending_strokes(const InstrumentModel& model, InstrumentState& state)
             stroke_string(model, state, s, stroke);
         }
     }
+    state.waiting = waiting;
 }
 
 }  // namespace jawari

@@ -16,6 +16,9 @@ constexpr std::size_t forces = touch_slots + 1;
 constexpr std::size_t exciter_index = touch_slots;
 /// Share of the way to its new pressure that a touch goes in a frame.
 constexpr double pressure_follow = 0.01;
+/// A sweeping touch takes this long to and fro, and is moved every so many frames.
+constexpr double sweep_period_s = 0.04;
+constexpr std::uint64_t sweep_frames = 4;
 
 double frame_s(const StringModel& model) {
     return model.step_s * static_cast<double>(model.steps_per_frame);
@@ -137,6 +140,17 @@ void leave(Touch& touch) {
     touch.share_rate = -std::abs(touch.share_rate);
 }
 
+void sweep_touches(const StringModel& model, TouchState& touches) {
+    for (Touch& touch : touches.touches) {
+        if (!touch.active || touch.sweep_m == 0) continue;
+        if (touch.age++ % sweep_frames != 0) continue;
+        const double turns = static_cast<double>(touch.age) * frame_s(model) / sweep_period_s;
+        const double x = touch.x_m + touch.sweep_m * std::sin(2 * std::numbers::pi * turns);
+        write_point_row(model, x, touch.width_m, touch.row.data());
+        touches.outdated = true;
+    }
+}
+
 /// Touches come, follow the pressure, and leave.
 void move_touches(TouchState& touches) {
     for (Touch& touch : touches.touches) {
@@ -178,6 +192,10 @@ void lay_touch(const StringModel& model, const StringState& string, TouchState& 
     touch.pressed_kg_per_s = plan.damping_kg_per_s;
     touch.stiffness_N_per_m = plan.stiffness_N_per_m;
     touch.frames_left = plan.frames;
+    touch.x_m = plan.x_m;
+    touch.width_m = plan.width_m;
+    touch.sweep_m = plan.sweep_m;
+    touch.age = 0;
     touches.outdated = true;
     write_point_row(model, plan.x_m, plan.width_m, touch.row.data());
     touch.rest_m = dot(model, touch.row.data(), string.displacement.data()) -
@@ -202,6 +220,7 @@ void apply_touches(const StringModel& model, StringState& string, TouchState& to
     const ActiveForces active = active_forces(touches);
     const bool excites = active.count > active.touches;
     if (active.count == 0 || (string.asleep && !excites)) return;
+    sweep_touches(model, touches);
     if (touches.outdated) set_compliance_of_touches(model, touches, active);
     set_free_path(model, string, touches);
     const TouchAnswer answer = answer_of_touches(model, touches, active);

@@ -22,6 +22,7 @@ void lift_all_touches(TouchState& touches) JAWARI_REALTIME;
 struct TouchPlan {
     double x_m = 0;      ///< from the start of the speaking length
     double width_m = 0;  ///< over which it is spread
+    double sweep_m = 0;  ///< how far it sweeps to either side; without a spring
     double damping_kg_per_s = 0;
     double stiffness_N_per_m = 0;  ///< relaxed where the string now is
     std::uint64_t frames = 0;      ///< 0: it stays

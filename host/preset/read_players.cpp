@@ -29,6 +29,7 @@ HammerDescription hammer(Section& reader) {
     body.loss_s_per_m = reader.number_or("loss_s_per_m", body.loss_s_per_m);
     body.full_speed_m_per_s = reader.number("full_speed_m_per_s");
     body.speed_exponent = reader.number_or("speed_exponent", body.speed_exponent);
+    body.side = reader.choice_or<Side>("side", body.side, {{"below", Side::Below}, {"above", Side::Above}});
     return body;
 }
 
@@ -61,7 +62,7 @@ Section section_of(Kind kind, const Value& value, const std::string& path, Probl
                     path,
                     {"name", "kind", "position_from_bridge_m", "position_share", "width_m", "velocity_range",
                      "string_range", "mass_kg", "stiffness_N_per_m_p", "exponent", "loss_s_per_m",
-                     "full_speed_m_per_s", "speed_exponent"},
+                     "full_speed_m_per_s", "speed_exponent", "side"},
                     problems};
         case Kind::Tangent:
             return {value,

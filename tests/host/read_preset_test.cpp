@@ -24,7 +24,8 @@ const std::string valid_preset = R"({
      "string_range": [0, 3], "time_exponent": 0.5, "rise_s": 0.003, "release_s": 0.001, "full_height_m": 0.002,
      "height_exponent": 1.5, "damping_kg_per_s": 0.25},
     {"name": "hammer", "kind": "hammer", "position_share": 0.125, "mass_kg": 0.005, "stiffness_N_per_m_p": 1e9,
-     "exponent": 2.5, "loss_s_per_m": 0.01, "full_speed_m_per_s": 3, "speed_exponent": 1.25},
+     "exponent": 2.5, "loss_s_per_m": 0.01, "full_speed_m_per_s": 3, "speed_exponent": 1.25,
+     "side": "above"},
     {"name": "tangent", "kind": "tangent", "rise_s": 0.002, "full_height_m": 0.001, "height_exponent": 0.75}],
   "hand": {"damps": false, "release_places": [{"position_share": 0.2}, {"position_from_bridge_m": 0.3}], "release_t60_s": 0.2,
            "release_spread": 3, "palm_place": {"position_share": 0.05}, "palm_t60_s": 0.3, "dead_t60_s": 0.04,
@@ -122,6 +123,7 @@ TEST(ReadPreset, EveryKeyOfThePlayersArrives) {
     EXPECT_EQ(hammer.loss_s_per_m, 0.01);
     EXPECT_EQ(hammer.full_speed_m_per_s, 3);
     EXPECT_EQ(hammer.speed_exponent, 1.25);
+    EXPECT_EQ(hammer.side, Side::Above);
     const auto& tangent = std::get<TangentDescription>(i.exciters[2].body);
     EXPECT_EQ(tangent.rise_s, 0.002);
     EXPECT_EQ(tangent.full_height_m, 0.001);

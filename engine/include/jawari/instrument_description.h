@@ -115,6 +115,7 @@ struct HammerDescription {
     double loss_s_per_m = 0;        ///< loss force K xi^p loss dxi/dt, 0 to 10
     double full_speed_m_per_s = 0;  ///< at velocity 1, 0.01 to 50
     double speed_exponent = 1;      ///< speed = full_speed velocity^speed_exponent, 0.1 to 4
+    Side side = Side::Below;        ///< Above: towards frets and neck, as the slapping thumb
 };
 
 /// The clavichord's tangent: the string's end opposite the bridge is moved and stays in contact. The end

@@ -128,16 +128,16 @@ struct BodyState {
     AlignedVector<double> y, v;
     double force_N = 0;  ///< of the frame before
     bool ringing = false;
+    std::uint64_t nonfinite_resets = 0;  ///< times it was put to rest because its state was not finite
 };
 
 struct InstrumentCounters {
-    std::uint64_t notes = 0;             ///< excited
-    std::uint64_t ignored_notes = 0;     ///< out of range, or replaced while waiting for a motion
-    std::uint64_t stolen_notes = 0;      ///< held notes whose string was taken by another
-    std::uint64_t delayed_notes = 0;     ///< had to wait for a motion to fade, at most fade_s
-    std::uint64_t faded_voices = 0;      ///< taken away before they were at rest
-    std::uint64_t legato_notes = 0;      ///< carried over from another fret
-    std::uint64_t nonfinite_resets = 0;  ///< hammers and bodies whose state was not finite
+    std::uint64_t notes = 0;          ///< excited
+    std::uint64_t ignored_notes = 0;  ///< out of range, or replaced while waiting for a motion
+    std::uint64_t stolen_notes = 0;   ///< held notes whose string was taken by another
+    std::uint64_t delayed_notes = 0;  ///< had to wait for a motion to fade, at most fade_s
+    std::uint64_t faded_voices = 0;   ///< taken away before they were at rest
+    std::uint64_t legato_notes = 0;   ///< carried over from another fret
 };
 
 struct InstrumentState {
@@ -148,6 +148,8 @@ struct InstrumentState {
     BodyState body;
     std::uint64_t note_order = 0;
     std::uint64_t frame = 0;          ///< frames rendered
+    bool waiting = false;             ///< a stroke may be waiting
+    bool busy = false;                ///< a string may have a motion
     std::uint64_t strokes_until = 0;  ///< waiting strokes have been looked at up to this frame
     InstrumentCounters counters;
     PlayerWork work;

@@ -31,8 +31,12 @@ struct Touch {
     double share_rate = 0;          ///< its change per frame
     double rest_m = 0;              ///< w at which the spring is relaxed
     std::uint64_t frames_left = 0;  ///< then it begins to leave; 0: it stays
-    AlignedVector<double> row;      ///< phi_k averaged over the width [m^(-1/2)]
-    double force_N = 0;             ///< held over the current frame
+    // A hand covers more than a point: its place sweeps over sweep_m to either side, so that no mode has a
+    // node under it for long. The force of a frame dissipates wherever the touch lies in it.
+    double x_m = 0, width_m = 0, sweep_m = 0;
+    std::uint64_t age = 0;      ///< frames since it was laid
+    AlignedVector<double> row;  ///< phi_k averaged over the width [m^(-1/2)]
+    double force_N = 0;         ///< held over the current frame
 };
 
 enum class ExciterPhase { None, Finger, Hammer, Tangent };
