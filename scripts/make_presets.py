@@ -23,8 +23,8 @@ SCHEMA = "jawari.preset/2"
 INSTRUMENTS = {**basses.INSTRUMENTS, **guitars.INSTRUMENTS, **eastern.INSTRUMENTS, **keyboards.INSTRUMENTS}
 # Chosen so that a chord at velocity 127 peaks near -6 dBFS: tests/presets/check_levels.py.
 GAIN = {
-    "bass-fretted": 0.12, "bass-fretless": 0.094, "bass-slap": 0.037, "guitar-steel": 160, "guitar-nylon": 290, "guitar-electric": 0.044,
-    "guitar-12": 220, "sitar": 230, "tanpura": 1300, "biwa": 650, "harpsichord": 1000, "clavichord": 1200, "dulcimer": 31, "prepared": 23,
+    "bass-fretted": 0.12, "bass-fretless": 0.094, "bass-slap": 0.037, "guitar-steel": 16, "guitar-nylon": 28, "guitar-electric": 0.044,
+    "guitar-12": 22, "sitar": 23, "tanpura": 130, "biwa": 65, "harpsichord": 100, "clavichord": 120, "dulcimer": 3.1, "prepared": 2.3,
 }
 GAIN_SOURCE = "chosen: a chord at velocity 127 peaks near -5 dBFS (tests/presets/check_levels.py)"
 QUALITY_SOURCE = "chosen: a compromise of cost and of what ultrasonic modes add (scripts/preset_convergence.py)"

@@ -77,7 +77,7 @@ def fretless():
 
 
 def slap():
-    thumb = hammer("thumb", from_bridge(0.27), 0.015, 0.008, 1e7, 1.5, 0.1, 6.0, 1.3, string_range=[0, 1],
+    thumb = hammer("thumb", from_bridge(0.27), 0.015, 0.008, 1e7, 1.5, 0.1, 6.0, 1.3, side="above", string_range=[0, 1],
                    given={"position_from_bridge_m": "chosen: over the last fret", "mass_kg": "chosen: the moving part of a thumb",
                           "full_speed_m_per_s": "chosen: throws the string onto the last frets",
                           "exponent": "chosen: Hertz's contact of bone under skin"})
