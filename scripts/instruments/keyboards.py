@@ -7,7 +7,7 @@ from strings import interpolated, stepped
 from wire import note_hz, rounded
 
 def player(release_t60_s, **more):
-    return hand(release_t60_s, places=(0.12, 0.29), legato_level=0.0, **more)
+    return hand(release_t60_s, places=(0.38, 0.47), legato_level=0.0, **more)
 
 
 def name_of(key):
@@ -60,7 +60,7 @@ def harpsichord():
             "body": "published density of modes (Savage, Kottick, Hendrickson, Marshall, JASA 91 (1992): 36 up to 600 Hz); the rest is chosen"},
         "frets": {"count": 0},
         "exciters": [quill(low, high) for low, high in GROUPS],
-        "hand": player(0.12), "body": body.HARPSICHORD, "strings": rows,
+        "hand": player(0.25), "body": body.HARPSICHORD, "strings": rows,
     }
 
 
@@ -83,7 +83,7 @@ def clavichord():
         "name": "Clavichord",
         "comment": ["One string per key, C2 to D6. The tangent strikes the string and stays: it is the string's end and excites by moving it. Pressing "
                     "the key raises the pitch (Bebung: channel or key pressure).",
-                    "After note-off the cloth beside the tangent damps the whole string at once."],
+                    "After note-off the cloth beside the tangent damps the whole string."],
         **quality(192000, 20000),
         "provenance": {
             "strings": "published: C2 1194 mm (Bavington, HPSCHD-L, 6 Feb 2017, from Vermeij's Hubert Clavichord Data Book: Hubert 1789). Chosen: other "
@@ -92,7 +92,7 @@ def clavichord():
         "frets": {"count": 0},
         "exciters": [sourced({"name": "tangent", "kind": "tangent", "rise_s": 0.0025, "full_height_m": 0.0012, "height_exponent": 0.6,
                               "time_exponent": 0.7}, "chosen: peak velocities up to about 1 m/s")],
-        "hand": player(0.05, release_spread=1.5, pressure_semitones=0.6), "body": body.CLAVICHORD,
+        "hand": player(0.3, release_spread=1.5, pressure_semitones=0.6), "body": body.CLAVICHORD,
         "strings": rows,
     }
 

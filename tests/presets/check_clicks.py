@@ -57,9 +57,11 @@ def gestures(name):
         change(score)
         return score
 
+    damps = model.load(name).get("hand", {}).get("damps", True)
     released = play.score()
     released.note(0, key, at, 100, release=100)
-    yield "note-off", released, held(key), 0.05
+    if damps:
+        yield "note-off", released, held(key), 0.05
     yield "another note's start", with_event(lambda s: s.note(at, other, 1, 100)), held(key), None
     if stopped is not None:
         yield "steal of the string", with_event(lambda s: s.note(at, stopped, 1, 100, channel=1)), held(key), None
@@ -77,7 +79,8 @@ def gestures(name):
     sustained.note(0, key, at - play.beats(0.1), 100)
     sustained.control(play.beats(0.1), 64, 127)
     sustained.control(at, 64, 0)
-    yield "pedal up", sustained, held(key), 0.05
+    if damps:
+        yield "pedal up", sustained, held(key), 0.05
 
 
 def onset_s(preset):
