@@ -38,7 +38,7 @@ def sitar():
 
 
 def tanpura():
-    rows = with_sources(strings.tanpura(9.0, 2.0), length_m=GODDEN + ": 39 in", inharmonicity=SOLID,
+    rows = with_sources(strings.tanpura(10.0, 3.5), length_m=GODDEN + ": 39 in", inharmonicity=SOLID,
                         open_frequency_hz="chosen: Sa at C within the page's range of A sharp to D",
                         linear_density_kg_per_m=[GODDEN + f": {gauge}" for gauge in (".022 in phosphor bronze", ".020 in steel", ".020 in steel",
                                                                                      ".028 in phosphor bronze")])
@@ -47,13 +47,13 @@ def tanpura():
         "comment": ["Four open strings, Pa Sa Sa low Sa with C as tonic: keys 43, 48, 48 and 36. Note-off does not damp.",
                     "A two-point bridge: the string ends at the back of the bridge, a cotton thread (jiva) 4 mm before that damps what is behind "
                     "the crest, and the crest, 10 mm before the end, is just grazed."],
-        **quality(400000, 24000), "studio": quality(1000000, 60000), "provenance": BODY,
+        **quality(300000, 20000), "studio": quality(1000000, 60000), "provenance": BODY,
         "frets": {"count": 0},
         "obstacles": [sourced({"name": "bridge", "origin": "bridge", "side": "below",
-                               "profile_m": [[0.008, -2e-05], [0.010, 0.0], [0.012, -1.2e-05], [0.014, -5e-05], [0.016, -0.00011]], "points": 0},
+                               "profile_m": [[0.010, 0.0], [0.012, -1.2e-05], [0.014, -5e-05], [0.016, -0.00011]], "points": 0},
                               profile_m="published two-point bridge (Issanchou, Bilbao, Le Carrou, Touze, Doare, JSV 393 (2017): a point near the "
-                                        "string's end at rest height); the fall on both sides is chosen")],
-        "soft_touches": [sourced({"name": "jiva thread", **from_bridge(0.004), "width_m": 0.0005, "damping_kg_per_s": 0.05})],
+                                        "string's end at rest height); the fall in front of it is chosen")],
+        "soft_touches": [sourced({"name": "jiva thread", **from_bridge(0.004), "width_m": 0.0005, "damping_kg_per_s": 0.012})],
         "exciters": [finger("finger", share(0.45), 0.012, 0.02, 0.002, 0.005, 1.3, 0.5)],
         "hand": player(0.5, damps=False), "body": body.TANPURA, "strings": panned(rows, 0.2),
     }
