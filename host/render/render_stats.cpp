@@ -41,6 +41,8 @@ InstrumentCounters all_notes(const RenderStats& stats) {
         sum.stolen_notes += part.notes.stolen_notes;
         sum.delayed_notes += part.notes.delayed_notes;
         sum.faded_voices += part.notes.faded_voices;
+        sum.legato_notes += part.notes.legato_notes;
+        sum.nonfinite_resets += part.notes.nonfinite_resets;
     }
     return sum;
 }
@@ -123,12 +125,13 @@ std::string stats_json(const RenderStats& stats) {
                     {"stolen_notes", notes.stolen_notes},
                     {"delayed_notes", notes.delayed_notes},
                     {"faded_voices", notes.faded_voices},
+                    {"legato_notes", notes.legato_notes},
                     {"steps", contacts.steps},
                     {"candidates", contacts.candidates},
                     {"impulses", contacts.impulses},
                     {"solves", contacts.solves},
                     {"truncated_solves", contacts.truncated_solves},
-                    {"nonfinite_resets", contacts.nonfinite_resets},
+                    {"nonfinite_resets", contacts.nonfinite_resets + notes.nonfinite_resets},
                     {"lcp_residual_max_m", contacts.worst_residual_m},
                     {"worst_penetration_m", contacts.worst_penetration_m},
                     {"parts", parts_json(stats)}};
@@ -146,9 +149,10 @@ std::string stats_summary(const RenderStats& stats) {
                  count(notes.notes), count(notes.ignored_notes), count(notes.stolen_notes));
     text += line("contact   %llu impulses in %llu steps, worst penetration %.3g m\n",
                  count(contacts.impulses), count(contacts.steps), contacts.worst_penetration_m);
-    if (contacts.truncated_solves + contacts.nonfinite_resets > 0) {
+    const std::uint64_t resets = contacts.nonfinite_resets + notes.nonfinite_resets;
+    if (contacts.truncated_solves + resets > 0) {
         text += line("caution   %llu truncated solves, %llu resets of a state that was not finite\n",
-                     count(contacts.truncated_solves), count(contacts.nonfinite_resets));
+                     count(contacts.truncated_solves), count(resets));
     }
     text += line("CPU       %.3g s compile, %.3g s render", stats.cpu_compile_s, stats.score.render_cpu_s);
     if (const auto factor = real_time_factor(stats)) text += line(", %.3g times real time", *factor);

@@ -71,7 +71,8 @@ class ScoreMaker {
         const int channel = routed.timed.event.channel;
         const int leader = rules_.choose ? part_channel(interpreter_, channel) : 0;
         const auto& preset = presets_[static_cast<std::size_t>(leader)];
-        if (!preset) {
+        const bool guitar = rules_.interpreter.guitar_channel >= 0;
+        if (!preset || (guitar && routed.timed.event.string < 0)) {
             score_.silent_notes += 1;
             return silent;
         }
@@ -79,7 +80,8 @@ class ScoreMaker {
             return part.channel == leader && part.preset == *preset;
         });
         if (found == score_.parts.end())
-            found = score_.parts.insert(found, ScorePart{*preset, leader, 0, 0, {}});
+            found = score_.parts.insert(
+                found, ScorePart{*preset, leader, 0, 0, guitar ? PlayMode::Guitar : PlayMode::Keyboard, {}});
         found->channels |= 1U << static_cast<unsigned>(channel);
         found->notes += 1;
         return static_cast<std::size_t>(found - score_.parts.begin());

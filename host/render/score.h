@@ -25,13 +25,14 @@ struct ScorePart {
     int channel = 0;        ///< 0 to 15: its channel, or that of its MPE zone's manager
     unsigned channels = 0;  ///< bit c: notes of channel c
     std::uint64_t notes = 0;
+    PlayMode play = PlayMode::Keyboard;
     std::vector<TimedEvent> events;  ///< in order of time
 };
 
 struct Score {
     std::vector<ScorePart> parts;    ///< in order of their first note
     std::uint64_t end_frame = 0;     ///< of the last event or end of track
-    std::uint64_t silent_notes = 0;  ///< of channels whose program has no preset
+    std::uint64_t silent_notes = 0;  ///< of programs without a preset, and beside guitar mode
     std::uint64_t program_changes = 0;
 };
 

@@ -44,7 +44,8 @@ std::vector<Bytes> malformed_files() {
         if (status != 0xF7) with_event({static_cast<std::uint8_t>(status), 0, 0});
     for (int value = 0x80; value < 0x90; ++value) with_event({0x90, 60, static_cast<std::uint8_t>(value)});
     for (const std::uint8_t size : Bytes{0, 1, 2, 4, 5}) with_event({0xFF, 0x51, size, 1, 2, 3, 4, 5});
-    for (const std::uint8_t first : Bytes{0, 1, 0x40, 0x7F}) with_event({first, 60});  // data without a status
+    for (const std::uint8_t first : Bytes{0, 1, 0x40, 0x7F})
+        with_event({first, 60});  // data without a status
     with_event({0xFF, 0x51, 3, 0, 0, 0});
     with_event({0xFF, 0x03, 0xFF, 0xFF, 0xFF, 0x7F});
     with_event({0xFF, 0x03, 0xFF, 0xFF, 0xFF, 0xFF, 0x7F});

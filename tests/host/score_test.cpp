@@ -101,6 +101,23 @@ TEST(Score, ChannelsWithoutAPresetAreSilentAndCounted) {
     EXPECT_EQ(score.silent_notes, 2U);
 }
 
+TEST(Score, InGuitarModeOtherChannelsAreSilent) {
+    ScoreRules rules;
+    rules.preset = "guitar";
+    rules.interpreter.guitar_channel = 2;
+    rules.interpreter.guitar_strings = 2;
+    rules.interpreter.guitar_string = {1, 0};
+    const Score score = make_score(
+        file_of({{0, {0x90, 60, 100}}, {0, {0x92, 60, 100}}, {0, {0x93, 55, 100}}, {0, {0x94, 50, 100}}}),
+        48000, rules);
+    ASSERT_EQ(score.parts.size(), 1U);
+    EXPECT_EQ(score.parts[0].play, PlayMode::Guitar);
+    EXPECT_EQ(score.silent_notes, 2U);
+    ASSERT_EQ(score.parts[0].events.size(), 2U);
+    EXPECT_EQ(score.parts[0].events[0].event.string, 1);
+    EXPECT_EQ(score.parts[0].events[1].event.string, 0);
+}
+
 TEST(Score, AnMpeZoneIsOnePart) {
     const Score score = make_score(file_of({{0, {0xB0, 101, 0}},
                                             {0, {0xB0, 100, 6}},
