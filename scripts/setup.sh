@@ -37,6 +37,7 @@ packages_full=(
     clang-tidy        # scripts/lint.sh
     clang             # libFuzzer builds
     libclang-rt-14-dev # libFuzzer and sanitizer run times
+    openttd-openmsx   # scripts/real_midi.py: music that nobody here wrote
 )
 
 case "${1:-}" in

@@ -198,6 +198,16 @@ class Workers {
     std::atomic<std::size_t> next_{0};
 };
 
+/// Files that were finished before the signal are there.
+Error interrupted(Error error, std::size_t jobs, const Workers& workers) {
+    std::size_t written = 0;
+    for (std::size_t i = 0; i < jobs; ++i) written += workers.result(i) && workers.result(i)->ok() ? 1 : 0;
+    if (written > 0)
+        error.message = "jawari: interrupted, " + std::to_string(written) + " of " + std::to_string(jobs) +
+                        " files were written";
+    return error;
+}
+
 MaybeError print_results(const std::vector<RenderJob>& jobs, const RenderOptions& options,
                          const Workers& workers) {
     MaybeError last;
@@ -233,7 +243,7 @@ MaybeError render(const RenderOptions& options) {
     const std::size_t wanted =
         options.jobs > 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
     workers.run(std::min(wanted, jobs.value().size()));
-    if (auto stop = interruption()) return stop;
+    if (auto stop = interruption()) return interrupted(*std::move(stop), jobs.value().size(), workers);
     return print_results(jobs.value(), options, workers);
 }
 

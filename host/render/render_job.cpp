@@ -38,6 +38,7 @@ Outcome<Score> load_score(const RenderJob& job, const RenderContext& context) {
     const RenderOptions& options = context.options;
     Score score = make_score(file.value(), options.rate_hz, context.rules);
     if (options.seed) humanise(score, *options.seed, options.rate_hz);
+    end_notes(score);
     return score;
 }
 

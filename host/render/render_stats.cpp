@@ -42,7 +42,6 @@ InstrumentCounters all_notes(const RenderStats& stats) {
         sum.delayed_notes += part.notes.delayed_notes;
         sum.faded_voices += part.notes.faded_voices;
         sum.legato_notes += part.notes.legato_notes;
-        sum.nonfinite_resets += part.notes.nonfinite_resets;
     }
     return sum;
 }
@@ -83,6 +82,7 @@ void describe_job(const std::string& midi, const RenderOptions& options, const S
     stats.preset = options.preset;
     stats.quality = quality_text(options.quality.value_or(Quality::Live));
     stats.output_rate_hz = options.rate_hz;
+    stats.score_s = static_cast<double>(score.end_frame) / options.rate_hz;
     stats.silent_notes = score.silent_notes;
     for (const EnsemblePart& part : ensemble.parts)
         stats.parts.push_back({part.score->preset, part.score->channel + 1,
@@ -111,6 +111,7 @@ std::string stats_json(const RenderStats& stats) {
                     {"output_rate_hz", stats.output_rate_hz},
                     {"frames", stats.score.frames},
                     {"sound_s", sound_s(stats)},
+                    {"score_s", stats.score_s},
                     {"cpu_compile_s", stats.cpu_compile_s},
                     {"cpu_render_s", stats.score.render_cpu_s},
                     {"cpu_output_s", stats.cpu_output_s},
@@ -131,7 +132,7 @@ std::string stats_json(const RenderStats& stats) {
                     {"impulses", contacts.impulses},
                     {"solves", contacts.solves},
                     {"truncated_solves", contacts.truncated_solves},
-                    {"nonfinite_resets", contacts.nonfinite_resets + notes.nonfinite_resets},
+                    {"nonfinite_resets", contacts.nonfinite_resets},
                     {"lcp_residual_max_m", contacts.worst_residual_m},
                     {"worst_penetration_m", contacts.worst_penetration_m},
                     {"parts", parts_json(stats)}};
@@ -149,10 +150,9 @@ std::string stats_summary(const RenderStats& stats) {
                  count(notes.notes), count(notes.ignored_notes), count(notes.stolen_notes));
     text += line("contact   %llu impulses in %llu steps, worst penetration %.3g m\n",
                  count(contacts.impulses), count(contacts.steps), contacts.worst_penetration_m);
-    const std::uint64_t resets = contacts.nonfinite_resets + notes.nonfinite_resets;
-    if (contacts.truncated_solves + resets > 0) {
+    if (contacts.truncated_solves + contacts.nonfinite_resets > 0) {
         text += line("caution   %llu truncated solves, %llu resets of a state that was not finite\n",
-                     count(contacts.truncated_solves), count(resets));
+                     count(contacts.truncated_solves), count(contacts.nonfinite_resets));
     }
     text += line("CPU       %.3g s compile, %.3g s render", stats.cpu_compile_s, stats.score.render_cpu_s);
     if (const auto factor = real_time_factor(stats)) text += line(", %.3g times real time", *factor);

@@ -21,6 +21,7 @@ struct PartStats {
 struct RenderStats {
     std::string midi, preset, quality;
     double output_rate_hz = 0;
+    double score_s = 0;  ///< last event or end of track
     std::vector<PartStats> parts;
     std::uint64_t silent_notes = 0;
     ScoreStatistics score;

@@ -106,4 +106,14 @@ Score make_score(const MidiFile& file, std::uint32_t rate_hz, const ScoreRules& 
     return score;
 }
 
+void end_notes(Score& score) {
+    for (ScorePart& part : score.parts) {
+        for (int channel = 0; channel < static_cast<int>(midi_channel_count); ++channel) {
+            if ((part.channels >> static_cast<unsigned>(channel) & 1U) == 0) continue;
+            for (const auto type : {InstrumentEventType::Sustain, InstrumentEventType::AllNotesOff})
+                part.events.push_back({score.end_frame, {.type = type, .channel = channel}});
+        }
+    }
+}
+
 }  // namespace jawari::host

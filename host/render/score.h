@@ -52,4 +52,8 @@ struct ScoreRules {
 /// pedals and bends. Parts exist if they have a note.
 Score make_score(const MidiFile& file, std::uint32_t rate_hz, const ScoreRules& rules);
 
+/// At the end of the score pedals go up and keys that are still down are let go, so that a file which forgets
+/// its note-offs comes to an end.
+void end_notes(Score& score);
+
 }  // namespace jawari::host

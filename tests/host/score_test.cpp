@@ -101,6 +101,21 @@ TEST(Score, ChannelsWithoutAPresetAreSilentAndCounted) {
     EXPECT_EQ(score.silent_notes, 2U);
 }
 
+TEST(Score, TheEndLetsGoOfEverything) {
+    ScoreRules rules;
+    rules.preset = "p";
+    Score score = make_score(file_of({{0, {0xB3, 64, 127}}, {0, {0x93, 60, 100}}, {100, {0x93, 62, 100}}}),
+                             48000, rules);
+    end_notes(score);
+    const auto& events = score.parts.at(0).events;
+    ASSERT_EQ(events.size(), 5U);
+    EXPECT_EQ(events[3].event.type, Type::Sustain);
+    EXPECT_EQ(events[3].event.value, 0);
+    EXPECT_EQ(events[4].event.type, Type::AllNotesOff);
+    EXPECT_EQ(events[4].event.channel, 3);
+    EXPECT_EQ(events[4].frame, 4800U);
+}
+
 TEST(Score, InGuitarModeOtherChannelsAreSilent) {
     ScoreRules rules;
     rules.preset = "guitar";
