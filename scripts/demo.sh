@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and renders a slapped bass line and a plucked string to out/.
+# Installs what is missing, builds, and renders the demo pieces and a plucked string to out/.
 # Usage: scripts/demo.sh
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
@@ -11,9 +11,13 @@ cmake --build --preset release --parallel "$(nproc)" --target jawari
 jawari=build/release/bin/jawari
 mkdir -p out
 "$jawari" render presets/demo/slap.mid --preset bass-fretted -o out/demo.wav --plot out/demo.png
+scripts/make_demo_midi.py --list | while read -r piece preset; do
+    "$jawari" render "presets/demo/$piece.mid" --preset "$preset" -o "out/$piece.wav"
+done
 "$jawari" simulate lab/bass --out out/bass.wav --plot out/bass.png
 
 echo
 echo "Listen to: $PWD/out/demo.wav   presets/demo/slap.mid on the preset bass-fretted"
 echo "Its sound: $PWD/out/demo.png   waveform and spectrogram"
+echo "More:      $PWD/out/*.wav      a piece for each kind of instrument (docs/presets.md)"
 echo "A string:  $PWD/out/bass.png   the scene lab/bass: string over its frets, probe, when which fret is struck"
