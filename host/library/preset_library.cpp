@@ -27,7 +27,7 @@ std::string environment(const char* name) {
 
 /// The variable if it is an absolute path, else a folder in the home folder, else nothing.
 std::string base_folder(const char* variable, const char* below_home) {
-    const std::string value = environment(variable);
+    std::string value = environment(variable);
     if (value.starts_with('/')) return value;
     const std::string home = environment("HOME");
     return home.starts_with('/') ? home + below_home : std::string();
