@@ -40,7 +40,7 @@ double group_speed(const StringState& state, std::size_t g) {
 void drop_weak_modes(const StringModel& model, StringState& state, const kernels::LargestBounds& largest) {
     const CertificateState& bounds = state.certificate;
     std::size_t active = state.active_modes;
-    while (active > 0 && bounds.speed[active - 1] <= lazy_threshold * largest.speed &&
+    while (active > state.excitation.modes && bounds.speed[active - 1] <= lazy_threshold * largest.speed &&
            bounds.extent[active - 1] <= lazy_threshold * largest.extent) {
         --active;
     }
@@ -50,6 +50,11 @@ void drop_weak_modes(const StringModel& model, StringState& state, const kernels
         std::fill(array->begin() + static_cast<std::ptrdiff_t>(active), array->end(), 0.0);
     }
     state.active_modes = active;
+}
+
+/// Modes that slept are at rest.
+void wake_excited_modes(StringState& state) {
+    state.active_modes = std::max(state.active_modes, state.excitation.modes);
 }
 
 bool has_faded(const StringState& state, const kernels::LargestBounds& largest) {
@@ -251,7 +256,7 @@ bool needs_refresh(const StringState& state) JAWARI_REALTIME {
 void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME {
     CertificateState& bounds = state.certificate;
     if (is_excited(state)) {
-        state.active_modes = model.stride;
+        wake_excited_modes(state);
         set_force_kicks(model, state);
     }
     const kernels::LargestBounds largest =
@@ -261,8 +266,8 @@ void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIM
     bounds.strongest_extent = std::max(bounds.strongest_extent, largest.extent);
     const bool finite =
         std::isfinite(largest.speed) && std::isfinite(largest.extent);  // else left to the frame's check
-    if (!is_excited(state) && finite) {
-        if (state.skipping.sleep && has_faded(state, largest)) {
+    if (finite) {
+        if (state.skipping.sleep && !is_excited(state) && has_faded(state, largest)) {
             fall_asleep(state);
             return;
         }

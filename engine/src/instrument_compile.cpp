@@ -76,7 +76,7 @@ Calibration calibrate_finger(const StoppedStringModel& stopped, const FingerDesc
                              double width_m, double rate_hz, double excitation) {
     FreeString string(stopped.string);
     AlignedVector<double> row(stopped.string.stride), held(stopped.string.stride);
-    write_point_row(stopped.string, x, width_m, row.data());
+    write_point_row(stopped.string, stopped.string.stride, x, width_m, row.data());
     const std::uint64_t rise = frames_of(finger.rise_s, rate_hz);
     const std::uint64_t release = frames_of(finger.release_s, rate_hz);
     double height_m = 0;

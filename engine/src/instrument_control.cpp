@@ -36,7 +36,8 @@ void follow_bend(const InstrumentModel& model, InstrumentState& state, std::size
     if (voice.slide.active) {
         SlideState& slide = voice.slide;
         slide.frame = std::min(slide.frame + control_frames, slide.frames);
-        semitones += slide.semitones * static_cast<double>(slide.frame) / static_cast<double>(slide.frames);
+        const double gone = static_cast<double>(slide.frame) / static_cast<double>(slide.frames);
+        semitones += slide.begun + gone * (slide.semitones - slide.begun);
     }
     set_bend(stopped, voice, semitones, state.work);
     if (voice.slide.active && voice.slide.frame >= voice.slide.frames) arrive(model, state, s);

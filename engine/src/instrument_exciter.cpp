@@ -150,7 +150,7 @@ double exciter_force(const StringAtExciter& at, ExciterState& exciter) JAWARI_RE
 void begin_finger(const StringModel& model, ExciterState& exciter, double x, double width_m, double peak_N,
                   std::uint64_t rise_frames, std::uint64_t release_frames) JAWARI_REALTIME {
     begin(exciter, ExciterPhase::Finger);
-    write_point_row(model, x, width_m, exciter.row.data());
+    write_point_row(model, model.stride, x, width_m, exciter.row.data());
     exciter.peak = peak_N;
     exciter.rise_frames = rise_frames;
     exciter.release_frames = release_frames;
@@ -160,7 +160,7 @@ void begin_hammer(const StringModel& model, const StringState& string, ExciterSt
                   double width_m, const HammerDescription& hammer, double speed_m_per_s,
                   double hardness) JAWARI_REALTIME {
     begin(exciter, ExciterPhase::Hammer);
-    write_point_row(model, x, width_m, exciter.row.data());
+    write_point_row(model, model.stride, x, width_m, exciter.row.data());
     if (hammer.side == Side::Above) {  // the same in a world upside down
         for (std::size_t k = 0; k < model.stride; ++k) exciter.row[k] = -exciter.row[k];
     }

@@ -71,7 +71,7 @@ void set_output_rows(StoppedStringModel& stopped, const InstrumentDescription& i
             write_bridge_row(model, row);
         } else {
             const double x = model.length_m - from_bridge(pickup.place, model.length_m);
-            write_point_row(model, x, pickup.width_m, row);
+            write_point_row(model, model.stride, x, pickup.width_m, row);
         }
         make_audible(model, output_rate_hz, row);
         stopped.pickup_rest.push_back(product(model, row, model.rest_displacement, model.stride));

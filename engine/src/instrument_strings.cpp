@@ -168,11 +168,10 @@ bool begin_slide(const InstrumentModel& model, InstrumentState& state, std::size
     const InstrumentStringModel& strings = model.strings[s];
     Voice& voice = string.voices[string.sounding];
     const double ratio = strings.stopped[stroke.fret].frequency_hz / strings.stopped[voice.fret].frequency_hz;
-    // From wherever a slide under way has got to.
     const double begun = voice.slide.active ? voice.bend.semitones - voice.bend.target : 0;
-    voice.bend.target += begun;
     voice.slide = {.active = true,
                    .fret = stroke.fret,
+                   .begun = begun,
                    .semitones = 12 * std::log2(ratio),
                    .frame = 0,
                    .frames = frames_of(time_s, model.output_rate_hz)};

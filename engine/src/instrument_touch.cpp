@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::size_t forces = touch_slots + 1;
 constexpr std::size_t exciter_index = touch_slots;
+/// Touches do not reach modes above this.
+constexpr double touch_limit_hz = 12000;
 /// Share of the way to its new pressure that a touch goes in a frame.
 constexpr double pressure_follow = 0.01;
 /// A sweeping touch takes this long to and fro, and is moved every so many frames.
@@ -24,10 +26,18 @@ double frame_s(const StringModel& model) {
     return model.step_s * static_cast<double>(model.steps_per_frame);
 }
 
-double dot(const StringModel& model, const double* a, const double* b) {
+double dot(std::size_t modes, const double* a, const double* b) {
     double sum = 0;
-    kernels::row_products(1, model.stride, model.stride, a, b, &sum);
+    kernels::row_products(1, modes, modes, a, b, &sum);
     return sum;
+}
+
+/// Flesh and felt damp what is heard; modes far beyond die by themselves and need not be woken.
+std::size_t modes_in_reach(const StringModel& model) {
+    const auto end = model.omega.begin() + static_cast<std::ptrdiff_t>(model.mode_count);
+    const auto first_beyond =
+        std::upper_bound(model.omega.begin(), end, 2 * std::numbers::pi * touch_limit_hz);
+    return padded(static_cast<std::size_t>(first_beyond - model.omega.begin()));
 }
 
 /// The touches and, if it acts, the exciter.
@@ -35,31 +45,41 @@ struct ActiveForces {
     std::array<std::size_t, forces> index{};
     std::size_t count = 0;
     std::size_t touches = 0;  ///< those in front
+    std::size_t modes = 0;    ///< that any of them reaches
 };
 
 const AlignedVector<double>& row_of(const TouchState& touches, std::size_t i) {
     return i == exciter_index ? touches.exciter.row : touches.touches[i].row;
 }
 
-ActiveForces active_forces(const TouchState& touches) {
+std::size_t modes_of(const StringModel& model, const TouchState& touches, std::size_t i) {
+    return i == exciter_index ? model.stride : touches.touches[i].modes;
+}
+
+ActiveForces active_forces(const StringModel& model, const TouchState& touches) {
     ActiveForces active;
     for (std::size_t i = 0; i < touch_slots; ++i) {
-        if (touches.touches[i].active) active.index[active.count++] = i;
+        if (!touches.touches[i].active) continue;
+        active.index[active.count++] = i;
+        active.modes = std::max(active.modes, touches.touches[i].modes);
     }
     active.touches = active.count;
-    if (touches.exciter.phase != ExciterPhase::None) active.index[active.count++] = exciter_index;
+    if (touches.exciter.phase == ExciterPhase::None) return active;
+    active.index[active.count++] = exciter_index;
+    active.modes = model.stride;
     return active;
 }
 
 /// middle <- q - h v/2, rise <- its change over the frame in free flight.
-void set_free_path(const StringModel& model, const StringState& string, TouchState& touches) {
+void set_free_path(const StringModel& model, const StringState& string, TouchState& touches,
+                   std::size_t modes) {
     const double lag = model.step_s / 2;
     const FlightModel& f = model.flight;
     const double* q = string.displacement.data();
     const double* v = string.velocity.data();
     double* middle = touches.middle.data();
     double* rise = touches.rise.data();
-    for (std::size_t k = 0; k < model.stride; ++k) {
+    for (std::size_t k = 0; k < modes; ++k) {
         middle[k] = q[k] - lag * v[k];
         rise[k] = (f.qq[k] - lag * f.vq[k]) * q[k] + (f.qv[k] - lag * f.vv[k]) * v[k];
     }
@@ -70,13 +90,15 @@ void set_compliance_of_touches(const StringModel& model, TouchState& touches, co
     const double lag = model.step_s / 2;
     for (std::size_t a = 0; a < active.count; ++a) {
         const std::size_t i = active.index[a];
+        const std::size_t modes = modes_of(model, touches, i);
         const double* row = row_of(touches, i).data();
         double* moved = touches.rise.data();
-        for (std::size_t k = 0; k < model.stride; ++k)
+        for (std::size_t k = 0; k < modes; ++k)
             moved[k] = row[k] * (model.flight.q_held[k] - lag * model.flight.v_held[k]);
         for (std::size_t b = 0; b <= a; ++b) {
             const std::size_t j = active.index[b];
-            const double g = dot(model, row_of(touches, j).data(), moved);
+            const double g =
+                dot(std::min(modes, modes_of(model, touches, j)), row_of(touches, j).data(), moved);
             touches.compliance[i * forces + j] = g;
             touches.compliance[j * forces + i] = g;
         }
@@ -104,9 +126,9 @@ TouchAnswer answer_of_touches(const StringModel& model, const TouchState& touche
         for (std::size_t b = 0; b < n; ++b)
             system.matrix[a][b] =
                 (a == b ? 1.0 : 0.0) + drag * touches.compliance[i * forces + active.index[b]];
-        system.right[a][0] = -drag * dot(model, touch.row.data(), touches.rise.data());
+        system.right[a][0] = -drag * dot(touch.modes, touch.row.data(), touches.rise.data());
         if (stiffness > 0) {
-            const double w = dot(model, touch.row.data(), touches.middle.data());
+            const double w = dot(touch.modes, touch.row.data(), touches.middle.data());
             system.right[a][0] -= stiffness * (w - touch.rest_m);
         }
         system.right[a][1] = -drag * touches.compliance[i * forces + exciter_index];
@@ -125,8 +147,8 @@ StringAtExciter string_at_exciter(const StringModel& model, const TouchState& to
     StringAtExciter at;
     const double* row = touches.exciter.row.data();
     at.frame_s = frame_s(model);
-    at.displacement_m = dot(model, row, touches.middle.data());
-    at.rise_m = dot(model, row, touches.rise.data());
+    at.displacement_m = dot(model.stride, row, touches.middle.data());
+    at.rise_m = dot(model.stride, row, touches.rise.data());
     at.give_m_per_N = touches.compliance[exciter_index * forces + exciter_index];
     for (std::size_t a = 0; a < active.touches; ++a) {
         const double g = touches.compliance[exciter_index * forces + active.index[a]];
@@ -146,7 +168,7 @@ void sweep_touches(const StringModel& model, TouchState& touches) {
         if (touch.age++ % sweep_frames != 0) continue;
         const double turns = static_cast<double>(touch.age) * frame_s(model) / sweep_period_s;
         const double x = touch.x_m + touch.sweep_m * std::sin(2 * std::numbers::pi * turns);
-        write_point_row(model, x, touch.width_m, touch.row.data());
+        write_point_row(model, touch.modes, x, touch.width_m, touch.row.data());
         touches.outdated = true;
     }
 }
@@ -197,9 +219,10 @@ void lay_touch(const StringModel& model, const StringState& string, TouchState& 
     touch.sweep_m = plan.sweep_m;
     touch.age = 0;
     touches.outdated = true;
-    write_point_row(model, plan.x_m, plan.width_m, touch.row.data());
-    touch.rest_m = dot(model, touch.row.data(), string.displacement.data()) -
-                   model.step_s / 2 * dot(model, touch.row.data(), string.velocity.data());
+    touch.modes = modes_in_reach(model);
+    write_point_row(model, touch.modes, plan.x_m, plan.width_m, touch.row.data());
+    touch.rest_m = dot(touch.modes, touch.row.data(), string.displacement.data()) -
+                   model.step_s / 2 * dot(touch.modes, touch.row.data(), string.velocity.data());
 }
 
 void press_touch(TouchState& touches, TouchSlot slot, double damping_kg_per_s) JAWARI_REALTIME {
@@ -213,27 +236,27 @@ void lift_touch(TouchState& touches, TouchSlot slot) JAWARI_REALTIME {
 }
 
 void apply_touches(const StringModel& model, StringState& string, TouchState& touches) JAWARI_REALTIME {
-    clear_excitation(model, string);
+    clear_excitation(string);
     move_touches(touches);
     for (Touch& touch : touches.touches) touch.force_N = 0;
     touches.exciter.force_N = 0;
-    const ActiveForces active = active_forces(touches);
+    const ActiveForces active = active_forces(model, touches);
     const bool excites = active.count > active.touches;
     if (active.count == 0 || (string.asleep && !excites)) return;
     sweep_touches(model, touches);
     if (touches.outdated) set_compliance_of_touches(model, touches, active);
-    set_free_path(model, string, touches);
+    set_free_path(model, string, touches, active.modes);
     const TouchAnswer answer = answer_of_touches(model, touches, active);
     double force_N = 0;
     if (excites) {
         force_N = exciter_force(string_at_exciter(model, touches, active, answer), touches.exciter);
         touches.exciter.force_N = force_N;
-        if (force_N != 0) add_force(model, string, touches.exciter.row.data(), force_N, 0);
+        if (force_N != 0) add_force(string, touches.exciter.row.data(), model.stride, force_N);
     }
     for (std::size_t a = 0; a < active.touches; ++a) {
         Touch& touch = touches.touches[active.index[a]];
         touch.force_N = answer.alone[a] + answer.by_exciter[a] * force_N;
-        if (touch.force_N != 0) add_force(model, string, touch.row.data(), touch.force_N, 0);
+        if (touch.force_N != 0) add_force(string, touch.row.data(), touch.modes, touch.force_N);
     }
 }
 
@@ -242,24 +265,27 @@ void meter_touches(const StringModel& model, const StringState& string, TouchSta
     if (!string.excitation.active) return;
     const double lag = model.step_s / 2;
     double* path = touches.rise.data();
-    for (std::size_t k = 0; k < model.stride; ++k)
+    for (std::size_t k = 0; k < string.excitation.modes; ++k)
         path[k] = string.displacement[k] - lag * string.velocity[k] - touches.middle[k];
     for (const Touch& touch : touches.touches) {
         if (touch.force_N == 0) continue;
-        work.touches_J += touch.force_N * dot(model, touch.row.data(), path);
+        work.touches_J += touch.force_N * dot(touch.modes, touch.row.data(), path);
     }
     const ExciterState& exciter = touches.exciter;
-    if (exciter.force_N != 0) work.exciters_J += exciter.force_N * dot(model, exciter.row.data(), path);
+    if (exciter.force_N != 0)
+        work.exciters_J += exciter.force_N * dot(model.stride, exciter.row.data(), path);
 }
 
-void write_point_row(const StringModel& model, double x, double width_m, double* row) JAWARI_REALTIME {
+void write_point_row(const StringModel& model, std::size_t modes, double x, double width_m,
+                     double* row) JAWARI_REALTIME {
+    const std::size_t count = std::min(modes, model.mode_count);
     // sin(k a) and sin(k b) by rotation; b = 0 for a point.
     const double scale = std::sqrt(2 / model.length_m);
     const double a = std::numbers::pi * x / model.length_m;
     const double b = std::numbers::pi * width_m / (2 * model.length_m);
     const double cos_a = std::cos(a), sin_a = std::sin(a), cos_b = std::cos(b), sin_b = std::sin(b);
     double ca = 1, sa = 0, cb = 1, sb = 0;
-    for (std::size_t k = 0; k < model.mode_count; ++k) {
+    for (std::size_t k = 0; k < count; ++k) {
         const double next_sa = sa * cos_a + ca * sin_a;
         ca = ca * cos_a - sa * sin_a;
         sa = next_sa;
@@ -269,7 +295,7 @@ void write_point_row(const StringModel& model, double x, double width_m, double*
         const double z = static_cast<double>(k + 1) * b;
         row[k] = scale * sa * (z > 0 ? sb / z : 1.0);
     }
-    std::fill(row + model.mode_count, row + model.stride, 0.0);
+    std::fill(row + count, row + modes, 0.0);
 }
 
 }  // namespace jawari

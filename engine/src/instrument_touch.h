@@ -47,7 +47,8 @@ void apply_touches(const StringModel& model, StringState& string, TouchState& to
 void meter_touches(const StringModel& model, const StringState& string, TouchState& touches,
                    PlayerWork& work) JAWARI_REALTIME;
 
-/// row_k <- phi_k averaged over width_m around x; 0 beyond the modes.
-void write_point_row(const StringModel& model, double x, double width_m, double* row) JAWARI_REALTIME;
+/// row_k <- phi_k averaged over width_m around x, for the first `modes` (padded); 0 in the padding.
+void write_point_row(const StringModel& model, std::size_t modes, double x, double width_m,
+                     double* row) JAWARI_REALTIME;
 
 }  // namespace jawari

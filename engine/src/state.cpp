@@ -132,7 +132,7 @@ void reset(const StringModel& model, StringState& state) noexcept {
     std::copy(model.initial_displacement.begin(), model.initial_displacement.end(),
               state.displacement.begin());
     std::copy(model.initial_velocity.begin(), model.initial_velocity.end(), state.velocity.begin());
-    clear_excitation(model, state);
+    clear_excitation(state);
     state.frame = 0;
     state.certificate.strongest_speed = 0;
     state.certificate.strongest_extent = 0;
@@ -147,7 +147,7 @@ void reset(const StringModel& model, StringState& state) noexcept {
 void put_to_rest(const StringModel& model, StringState& state) noexcept {
     std::copy(model.rest_displacement.begin(), model.rest_displacement.end(), state.displacement.begin());
     std::fill(state.velocity.begin(), state.velocity.end(), 0.0);
-    clear_excitation(model, state);
+    clear_excitation(state);
     place_obstacles(model, state.contact);
     notice_change(model, state);
 }

@@ -151,7 +151,7 @@ std::vector<double> played(const StringModel& model, const Skipping& skipping, s
         const double now = force_at(static_cast<double>(n));
         const double next = force_at(static_cast<double>(n + 1));
         const double rate = (next - now) / static_cast<double>(model.steps_per_frame);
-        clear_excitation(model, state);
+        clear_excitation(state);
         if (now != 0 || next != 0) test::press(model, state, 0.7 * model.length_m, now, rate);
         samples.push_back(probe_value(model, state, 0, 1.0 / 48000));
         advance_frame(model, state);
@@ -187,7 +187,7 @@ TEST(Skipping, StringsFallAsleepAndWake) {
     for (int round = 0; round < 2; ++round) {
         test::press(model, state, 0.2 * model.length_m, 1);
         advance_frame(model, state);
-        clear_excitation(model, state);
+        clear_excitation(state);
         EXPECT_FALSE(state.asleep);
         EXPECT_GT(energy(model, state), 0);
         for (int n = 0; n < 24000; ++n) advance_frame(model, state);  // 60 dB every 2400 frames

@@ -134,7 +134,7 @@ TEST(InstrumentRender, AMotionIsTheCompiledStringUnderTheFingersForce) {
             const double x = t < rise ? t / rise : std::max(0.0, (rise + release - t) / release);
             force += 0.5 * (1 - std::cos(3.14159265358979323846 * x)) / 1000;
         }
-        clear_excitation(stopped.string, state);
+        clear_excitation(state);
         if (n < static_cast<std::size_t>(rise + release))
             test::press(stopped.string, state, L - 0.16, stopped.full_force_N[0] * force);
         advance_frame(stopped.string, state);
@@ -181,12 +181,10 @@ TEST(InstrumentRender, ChangingTheNoteOnAStringDoesNotClick) {
 
 TEST(InstrumentRender, TakingVoicesAwayDoesNotClick) {
     // Five notes in 40 ms on one string: more than it has voices.
+    // The first three fade nothing.
     std::vector<InstrumentEvent> events;
-    double apart = 0;
-    for (std::size_t i = 0; i < 5; ++i) {
-        events.push_back(note_on(480 * i, 28 + static_cast<int>(i), 0.2));
-        apart = std::max(apart, sharpest(play({note_on(1, 28 + static_cast<int>(i), 0.2)}, 4800), 1, 4700));
-    }
+    for (std::size_t i = 0; i < 5; ++i) events.push_back(note_on(480 * i, 28 + static_cast<int>(i), 0.2));
+    const double apart = sharpest(play({events.begin(), events.begin() + 3}, 9600), 1, 9500);
     InstrumentState state = make_instrument_state(bass_model());
     const auto output = play(state, events, 9600);
     EXPECT_GT(state.counters.faded_voices, 0U);

@@ -277,7 +277,7 @@ TEST(PointRow, IsTheMeanOfTheShapeOverTheWidth) {
     const StringModel model = lossless_string(200);
     AlignedVector<double> row(model.stride, 7.0);
     for (const double width : {0.0, 0.03}) {
-        write_point_row(model, 0.123, width, row.data());
+        write_point_row(model, model.stride, 0.123, width, row.data());
         for (const std::size_t k : {std::size_t{1}, std::size_t{7}, std::size_t{60}, std::size_t{200}}) {
             double mean = 0;
             for (int i = 0; i < 2000; ++i)

@@ -42,7 +42,8 @@ void expect_projection(std::size_t from_fret, std::size_t to_fret) {
     start_voice(model, string, to, to_fret, 0, 0);
     AlignedVector<double> u(a.string.stride, 0.0);
     for (std::size_t k = 0; k < 30; ++k) {
-        from.string.displacement[k] = 1e-3 * std::cos(static_cast<double>(k * k)) / std::pow(static_cast<double>(k + 1), 2);
+        from.string.displacement[k] =
+            1e-3 * std::cos(static_cast<double>(k * k)) / std::pow(static_cast<double>(k + 1), 2);
         u[k] = std::sin(static_cast<double>(5 * k)) / static_cast<double>(k + 1);
         from.string.velocity[k] = a.backward_q[k] * from.string.displacement[k] + a.backward_u[k] * u[k];
     }

@@ -13,6 +13,7 @@
 #include "excitation.h"
 #include "jawari/jawari.h"
 #include "scenes.h"
+#include "small_instrument.h"
 
 // Sanitizers replace the allocator themselves and make system calls of their own.
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -162,8 +163,8 @@ struct Performance {
         const StringModel& string_model = model.strings[0];
         for (int n = 0; n < 6; ++n) render(model, state, outputs, block);
         move_contact(string_model, string, 5, 1e-3, 100);
-        clear_excitation(string_model, string);
-        add_force(string_model, string, force_row.data(), 0.1, 1e-4);
+        clear_excitation(string);
+        add_force(string, force_row.data(), string_model.stride, 0.1, 1e-4);
         for (int n = 0; n < 3; ++n) render(model, state, outputs, block);
         // A solve without room is truncated; the workspace only shrinks.
         string.lcp.capacity = 1;
@@ -192,6 +193,55 @@ std::vector<std::unique_ptr<Performance>> performances() {
     all.push_back(std::make_unique<Performance>(ImpactLaw::Newton, Scheme::Exact, Metering::Frame, skip_all));
     all.push_back(std::make_unique<Performance>(ImpactLaw::Newton, Scheme::Theta, Metering::Off, skip_all));
     return all;
+}
+
+/// A storm of every event that instruments know, in blocks.
+struct InstrumentPerformance {
+    static constexpr std::size_t block = 64;
+    static constexpr std::size_t blocks = 80;
+    InstrumentModel model;
+    InstrumentState state;
+    std::vector<std::vector<InstrumentEvent>> events{blocks};
+    std::vector<double> left, right;
+
+    explicit InstrumentPerformance(PlayMode mode) {
+        model = compile_instrument(test::small_instrument(), 48000).value();
+        state = make_instrument_state(model);
+        state.play = mode;
+        left.assign(block, 0.0);
+        right.assign(block, 0.0);
+        for (InstrumentEvent event : test::storm(mode == PlayMode::Guitar ? 5 : 6, block * blocks, 400)) {
+            std::vector<InstrumentEvent>& here = events[event.frame / block];
+            event.frame %= block;
+            here.push_back(event);
+        }
+    }
+
+    void play() {
+        for (const auto& here : events)
+            render_instrument(model, state, here, InstrumentOutput{left.data(), right.data(), {}}, block);
+    }
+};
+
+std::vector<std::unique_ptr<InstrumentPerformance>> instrument_performances() {
+    std::vector<std::unique_ptr<InstrumentPerformance>> all;
+    for (const PlayMode mode : {PlayMode::Keyboard, PlayMode::Guitar})
+        all.push_back(std::make_unique<InstrumentPerformance>(mode));
+    return all;
+}
+
+TEST(Realtime, PlayingAnInstrumentTakesNoMemory) {
+    for (const auto& performance : instrument_performances()) {
+        unsigned long hits = 0;
+        {
+            const NoAllocation zone;
+            performance->play();
+            hits = allocations;
+        }
+        EXPECT_EQ(hits, 0U);
+        EXPECT_GT(performance->state.counters.notes, 10U);
+        EXPECT_NE(performance->state.work.bends_J, 0);
+    }
 }
 
 TEST(Realtime, RenderingTakesNoMemory) {
@@ -235,19 +285,23 @@ constexpr int no_filter = 99;
 constexpr int trap_is_dead = 98;
 
 /// Exit code: system calls made by the performances, or one of the codes above.
-[[noreturn]] void play_without_system_calls(const std::vector<std::unique_ptr<Performance>>& all) {
+[[noreturn]] void play_without_system_calls(
+    const std::vector<std::unique_ptr<Performance>>& all,
+    const std::vector<std::unique_ptr<InstrumentPerformance>>& instruments) {
     if (!trap_system_calls()) _exit(no_filter);
     syscall(SYS_getppid);
     if (system_calls != 1) _exit(trap_is_dead);
     for (const auto& performance : all) performance->play();
+    for (const auto& performance : instruments) performance->play();
     _exit(std::min(static_cast<int>(system_calls) - 1, 90));
 }
 
 TEST(Realtime, RenderingMakesNoSystemCalls) {
     const auto all = performances();
+    const auto instruments = instrument_performances();
     const pid_t child = fork();
     ASSERT_GE(child, 0);
-    if (child == 0) play_without_system_calls(all);
+    if (child == 0) play_without_system_calls(all, instruments);
     int status = 0;
     ASSERT_EQ(waitpid(child, &status, 0), child);
     ASSERT_TRUE(WIFEXITED(status)) << "signal " << WTERMSIG(status);

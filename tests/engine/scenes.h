@@ -110,8 +110,8 @@ inline StringModel compiled_string(const SceneDescription& scene) {
 inline void press(const StringModel& model, StringState& state, double x, double force_N, double rate_N = 0) {
     AlignedVector<double> row(model.stride, 0.0);
     for (std::size_t k = 0; k < model.mode_count; ++k) row[k] = mode_shape(k + 1, x, model.length_m);
-    clear_excitation(model, state);
-    add_force(model, state, row.data(), force_N, rate_N);
+    clear_excitation(state);
+    add_force(state, row.data(), model.stride, force_N, rate_N);
 }
 
 }  // namespace jawari::test

@@ -33,8 +33,9 @@ inline InstrumentDescription small_instrument() {
                                                         .exponent = 2.3,
                                                         .loss_s_per_m = 0.05,
                                                         .full_speed_m_per_s = 2}});
-    small.exciters.push_back(
-        {.name = "tangent", .body = TangentDescription{.rise_s = 0.003, .full_height_m = 0.001}});
+    small.exciters.push_back({.name = "tangent",
+                              .place = {},
+                              .body = TangentDescription{.rise_s = 0.003, .full_height_m = 0.001}});
     small.obstacles.push_back({.name = "rattle",
                                .origin = Origin::Bridge,
                                .side = Side::Above,
@@ -132,6 +133,7 @@ inline std::vector<InstrumentEvent> storm(unsigned seed, std::size_t frames, std
                 const ParameterDeclaration& parameter = parameter_table()[below(parameter_count)];
                 event.parameter = parameter.id;
                 event.value = parameter_value(parameter, unit());
+                if (parameter.id == ParameterId::SlideTime) event.value *= 0.005;  // short enough to arrive
                 event.channel = static_cast<int>(below(4)) - 1;
                 break;
             }

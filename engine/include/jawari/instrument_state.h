@@ -34,6 +34,7 @@ struct BendState {
 struct SlideState {
     bool active = false;
     std::size_t fret = 0;
+    double begun = 0;      ///< semitones at which it began, 0 unless another slide was under way
     double semitones = 0;  ///< from this fret to that
     std::uint64_t frame = 0, frames = 0;
 };

@@ -35,6 +35,7 @@ struct Touch {
     // node under it for long. The force of a frame dissipates wherever the touch lies in it.
     double x_m = 0, width_m = 0, sweep_m = 0;
     std::uint64_t age = 0;      ///< frames since it was laid
+    std::size_t modes = 0;          ///< that it reaches (padded); `row` counts up to here
     AlignedVector<double> row;  ///< phi_k averaged over the width [m^(-1/2)]
     double force_N = 0;         ///< held over the current frame
 };

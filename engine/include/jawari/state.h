@@ -128,6 +128,7 @@ struct ExcitationState {
     AlignedVector<double> held;  ///< [N m^(-1/2)]
     AlignedVector<double> ramp;  ///< its change per step [N m^(-1/2)]; all zero unless `ramps`
     std::size_t elapsed = 0;     ///< steps since `held` was set
+    std::size_t modes = 0;       ///< both are zero from here on (padded): higher modes may sleep
     bool active = false;         ///< false: `held` is all zero
     bool ramps = false;
 };
