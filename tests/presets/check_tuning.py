@@ -18,7 +18,7 @@ import play
 import preset_model as model
 
 SETTLED_S, MEASURED_S, PAUSE_S = 0.20, 0.52, 0.18
-BODY_SETTLED_S, BODY_HZ = 0.9, 260  # the lowest body modes ring on between the partials of low notes
+BODY_SETTLED_S, BODY_HZ = 0.9, 300  # the lowest body modes ring on between the partials of low notes
 SOFT, PLAYED = 24, 90
 CENT_LIMIT, DECAY_LIMIT = 1.0, 0.05
 PARTIALS = (1, 2, 3, 5)
