@@ -170,7 +170,7 @@ TEST(RenderProgram, EveryFailureIsOneLineAndLeavesNothing) {
     const std::string cut = folder.write("cut.mid", one_note().substr(0, 30));
     const std::string text = folder.write("text.mid", "hello");
     const std::string bad_preset =
-        folder.write("bad.json", R"({"schema": "jawari.preset/1", "name": "x", "gaim": 1})");
+        folder.write("bad.json", R"({"schema": "jawari.preset/2", "name": "x", "gaim": 1})");
     const std::string out = folder.file("out.wav");
     const std::string missing = folder.file("missing");
     const std::vector<Refusal> refusals{
