@@ -236,8 +236,8 @@ TEST(FactoryPresets, AllLoadCompileAndSound) {
             const auto model = compile_instrument(preset.value().instrument, rate_hz);
             ASSERT_TRUE(model) << name << ": " << model.failure().line();
             InstrumentState state = make_instrument_state(model.value());
-            const int key = preset.value().instrument.strings[0].open_note;
-            const InstrumentEvent event{0, InstrumentEventType::NoteOn, 0, key, 0.8};
+            const InstrumentEvent event{0, InstrumentEventType::NoteOn, 0,
+                                        model.value().strings[0].stopped[0].key, 0.8};
             std::vector<double> output(4096);
             render_instrument(model.value(), state, {&event, 1}, output.data(), output.size());
             double peak = 0;
