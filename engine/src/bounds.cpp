@@ -50,12 +50,23 @@ void fall_asleep(StringState& state) {
     state.asleep = true;
 }
 
-/// speed_g = sum_k envelope_g r_k. Odometers start again from zero; what the readings claimed stays claimed.
+/// While few contacts strike, their gaps at both ends of each frame cost less than odometers that serve once.
+bool looks_directly(const StringModel& model, const StringState& state) {
+    return state.certificate.struck && model.contact_count <= contacts_with_own_bounds &&
+           !looks_ahead(model.law);
+}
+
+/// speed_g = sum_k envelope_g r_k, or nothing where odometers are not needed. Odometers start again from
+/// zero; what the readings claimed stays claimed.
 void set_group_speeds(const StringModel& model, StringState& state) {
     CertificateState& bounds = state.certificate;
     const std::size_t groups = group_count(model);
-    kernels::row_products(groups, state.active_modes, model.stride, model.certificate.envelope.data(),
-                          bounds.speed.data(), bounds.group_speed.data());
+    if (bounds.direct) {
+        std::fill(bounds.group_speed.begin(), bounds.group_speed.end(), 0.0);
+    } else {
+        kernels::row_products(groups, state.active_modes, model.stride, model.certificate.envelope.data(),
+                              bounds.speed.data(), bounds.group_speed.data());
+    }
     for (std::size_t g = 0; g < groups; ++g) {
         bounds.group_speed[g] *= bound_safety;
         for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
@@ -119,6 +130,7 @@ void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIM
         }
         if (state.skipping.lazy) drop_weak_modes(model, state, largest);
     }
+    bounds.direct = looks_directly(model, state);
     set_group_speeds(model, state);
     bounds.age = 0;
     bounds.outdated = false;

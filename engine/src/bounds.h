@@ -27,6 +27,9 @@ inline double lookahead(const StringModel& model) {
     return looks_ahead(model.law) ? model.step_s / 2 : 0.0;
 }
 
+/// Up to this many contacts each has bounds of its own; more share them in groups of neighbours.
+inline constexpr std::size_t contacts_with_own_bounds = 64;
+
 /// Modes that the lookout flies ahead.
 inline constexpr std::size_t lookout_modes = 64;
 
@@ -35,7 +38,8 @@ inline std::size_t low_modes(const StringModel& model) {
 }
 
 inline std::size_t group_of(const StringModel& model, std::size_t contact) {
-    return contact / model.certificate.group_begin[1];
+    const std::size_t size = model.certificate.group_begin[1];
+    return size == 1 ? contact : contact / size;  // a division for each contact of a fretboard would be felt
 }
 
 inline std::size_t group_count(const StringModel& model) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "bounds.h"
 #include "contact.h"
@@ -130,6 +131,23 @@ std::size_t certify_by_speed(const StringModel& model, StringState& state, std::
     return left;
 }
 
+/// Contacts that neither odometers nor the lookout nor the speed bound certify; their gaps are computed.
+std::size_t find_uncertain(const StringModel& model, StringState& state) {
+    if (is_excited(state)) look_out(model, state, find_watched(model, state, 1), 1);
+    const std::size_t expired = find_expired(model, state);
+    if (expired == 0) return 0;
+    compute_frame_gaps(model, state, expired);
+    return certify_by_speed(model, state, expired);
+}
+
+/// All contacts, with their gaps.
+std::size_t take_all_gaps(const StringModel& model, StringState& state) {
+    std::vector<std::uint32_t>& list = state.certificate.expired;
+    std::iota(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(model.contact_count), 0U);
+    compute_frame_gaps(model, state, model.contact_count);
+    return model.contact_count;
+}
+
 /// The detours of the groups that the first `left` expired contacts belong to.
 void complete_detours_of(const StringModel& model, StringState& state, std::size_t left) {
     CertificateState& bounds = state.certificate;
@@ -222,14 +240,9 @@ bool choose_near_contacts(const StringModel& model, StringState& state) JAWARI_R
     ContactState& contact = state.contact;
     for (std::size_t i = 0; i < contact.near_count; ++i) contact.is_near[contact.near[i]] = 0;
     contact.near_count = 0;
-    if (is_excited(state)) {
-        add_kicks(model, state);
-        look_out(model, state, find_watched(model, state, 1), 1);
-    }
-    const std::size_t expired = find_expired(model, state);
-    if (expired == 0) return false;
-    compute_frame_gaps(model, state, expired);
-    const std::size_t left = certify_by_speed(model, state, expired);
+    if (is_excited(state)) add_kicks(model, state);
+    const std::size_t left =
+        state.certificate.direct ? take_all_gaps(model, state) : find_uncertain(model, state);
     if (left == 0) return false;
     complete_detours_of(model, state, left);
     certify_by_both_ends(model, state, left);
@@ -246,6 +259,7 @@ void advance_bounds(const StringModel& model, StringState& state) JAWARI_REALTIM
         bounds.group_push[g] = 0;
     }
     bounds.age += 1;
+    if (bounds.direct) bounds.outdated = true;  // odometers are to go on from a speed again
 }
 
 void note_stepped_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {

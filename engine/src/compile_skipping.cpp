@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bounds.h"
 #include "jawari/step_coefficients.h"
 #include "kernels.h"
 #include "response.h"
@@ -14,8 +15,7 @@ double square(double x) {
     return x * x;
 }
 
-/// Up to this many contacts each has bounds of its own; more share them in groups of neighbours.
-constexpr std::size_t contacts_with_own_bounds = 64;
+/// The size of such a group.
 constexpr std::size_t contacts_per_group = 16;
 
 /// d = 0 and s = 0 are possible (undamped modes at multiples of the step's Nyquist rate): their bounds become

@@ -145,7 +145,7 @@ std::size_t frames_to_fly(const StringModel& model, StringState& state) JAWARI_R
     CertificateState& bounds = state.certificate;
     if (bounds.free_frames == 0) {
         if (needs_refresh(state)) refresh_bounds(model, state);
-        if (state.asleep) return 0;
+        if (state.asleep || bounds.direct) return 0;
         plan_free_frames(model, state);
     }
     return bounds.free_frames;

@@ -130,7 +130,12 @@ void solve_kept_set(const Problem& p) {
         p.factor().transpose().triangularView<Eigen::Upper>().solveInPlace(inverse);
     }
     for (std::size_t i = 0; i < work.active_count; ++i) work.direction[i] = -p.r[work.active[i]];
-    p.vector(work.solution).noalias() = inverse * p.vector(work.direction);
+    for (std::size_t i = 0; i < work.active_count; ++i) {
+        const double* row = work.inverse.data() + i * largest_inverse;
+        double sum = 0;
+        for (std::size_t j = 0; j < work.active_count; ++j) sum += row[j] * work.direction[j];
+        work.solution[i] = sum;
+    }
 }
 
 /// Solves for the active impulses exactly; contacts whose impulse is not positive leave until all are.
@@ -174,13 +179,16 @@ void adopt_active_set(const Problem& p) {
 }
 
 void update_residual(const Problem& p) {
-    for (const auto c : p.candidates) {
-        double sum = p.r[c];
-        for (std::size_t i = 0; i < p.work.active_count; ++i) {
-            const auto f = p.work.active[i];
-            sum += p.a(f, c) * p.lambda[f];
+    for (const auto c : p.candidates) p.residual[c] = p.r[c];
+    for (std::size_t i = 0; i < p.work.active_count; ++i) {
+        const auto f = p.work.active[i];
+        const double impulse = p.lambda[f];
+        if (p.A.node == nullptr) {
+            const double* row = p.A.values + f * p.A.stride;
+            for (const auto c : p.candidates) p.residual[c] += row[c] * impulse;
+        } else {
+            for (const auto c : p.candidates) p.residual[c] += p.a(f, c) * impulse;
         }
-        p.residual[c] = sum;
     }
 }
 

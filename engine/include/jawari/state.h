@@ -128,7 +128,8 @@ struct CertificateState {
     std::uint64_t age = 0;          ///< frames since the last refresh
     bool outdated = true;           ///< an impulse has raised the bounds
     bool struck = false;            ///< the last frame had impulses: the coming one most likely has
-    bool excited = false;           ///< the last refresh was made under excitation
+    bool direct = false;   ///< the coming frame looks at all gaps at both its ends; odometers stand still
+    bool excited = false;  ///< the last refresh was made under excitation
     KickState kicks;
     double strongest_speed = 0;   ///< largest r_k ever [m^(3/2)/s]
     double strongest_extent = 0;  ///< largest |q_k| bound ever
