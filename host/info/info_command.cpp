@@ -8,6 +8,7 @@
 
 #include "common/command_line.h"
 #include "common/output_file.h"
+#include "common/quality_words.h"
 #include "info/survey_text.h"
 #include "library/program_presets.h"
 #include "render/options.h"
@@ -16,8 +17,7 @@ namespace jawari::host {
 
 namespace {
 
-const std::map<std::string, Quality> qualities{
-    {"live", Quality::Live}, {"studio", Quality::Studio}, {"reference", Quality::Reference}};
+const std::map<std::string, Quality> qualities = quality_words();
 
 MaybeError print(const std::string& text) {
     auto output = OutputFile::create("-");

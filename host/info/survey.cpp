@@ -78,7 +78,7 @@ Outcome<PresetSurvey> survey_preset(const std::string& preset, const InstrumentS
     const LoadedInstrument& instrument = *loaded.value();
     PresetSurvey survey;
     survey.preset = instrument.preset;
-    survey.quality = quality_text(settings.quality);
+    survey.quality = name_of(settings.quality);
     survey.contact_rate_hz = instrument.model.contact_rate_hz;
     survey.cpu_compile_s = instrument.cpu_compile_s;
     const InstrumentDescription& description = instrument.preset.instrument;

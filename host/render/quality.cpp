@@ -12,16 +12,4 @@ QualityDescription at_quality(const InstrumentDescription& instrument, Quality q
     return chosen;
 }
 
-std::string quality_text(Quality quality) {
-    switch (quality) {
-        case Quality::Live:
-            return "live";
-        case Quality::Studio:
-            return "studio";
-        case Quality::Reference:
-            break;
-    }
-    return "reference";
-}
-
 }  // namespace jawari::host

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/command_line.h"
+#include "common/quality_words.h"
 #include "common/text.h"
 #include "library/preset_library.h"
 #include "render/options.h"
@@ -18,8 +19,7 @@ namespace {
 
 const std::map<std::string, SampleFormat> formats{
     {"pcm16", SampleFormat::Pcm16}, {"pcm24", SampleFormat::Pcm24}, {"float", SampleFormat::Float}};
-const std::map<std::string, Quality> qualities{
-    {"live", Quality::Live}, {"studio", Quality::Studio}, {"reference", Quality::Reference}};
+const std::map<std::string, Quality> qualities = quality_words();
 
 std::string footer() {
     std::vector<std::string> names;

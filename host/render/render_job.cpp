@@ -45,7 +45,7 @@ Outcome<Score> load_score(const RenderJob& job, const RenderContext& context) {
 SoundTags tags_of(const RenderJob& job, const RenderContext& context) {
     const RenderOptions& options = context.options;
     std::string comment =
-        "preset " + options.preset + ", quality " + quality_text(options.quality.value_or(Quality::Live));
+        "preset " + options.preset + ", quality " + name_of(options.quality.value_or(Quality::Live));
     if (!options.tuning.empty()) comment += ", tuning " + file_name(options.tuning);
     if (!options.keyboard_map.empty()) comment += ", keyboard map " + file_name(options.keyboard_map);
     if (options.seed) comment += ", seed " + std::to_string(*options.seed);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "jawari/description.h"
+#include "jawari/quality.h"
 #include "jawari/skipping.h"
 
 namespace jawari::host {
@@ -17,6 +18,7 @@ struct Overrides {
     std::optional<Scheme> scheme;
     std::optional<double> theta;
     std::optional<ImpactLaw> law;
+    std::optional<Quality> quality;     ///< sets the modes, and the contact rate unless that is given too
     std::optional<double> restitution;  ///< of every contact
     std::optional<Start> start;         ///< of every string
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/text.h"
 #include "scene/words.h"
@@ -34,6 +35,10 @@ Error explain_contact_rate(const Failure& failure, const Overrides& overrides, c
 MaybeError apply_overrides(const Overrides& overrides, Scene& scene) {
     SceneDescription& description = scene.description;
     if (overrides.output_rate_hz) description.output_rate_hz = *overrides.output_rate_hz;
+    if (overrides.quality) {
+        description = at_quality(std::move(description), *overrides.quality);
+        scene.contact_rate_hz = description.contact_rate_hz;
+    }
     if (overrides.contact_rate_hz) scene.contact_rate_hz = overrides.contact_rate_hz;
     if (overrides.duration_s) scene.duration_s = *overrides.duration_s;
     if (overrides.scheme) description.scheme = *overrides.scheme;

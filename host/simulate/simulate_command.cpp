@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/command_line.h"
+#include "common/quality_words.h"
 #include "common/text.h"
 #include "jawari/description.h"
 #include "scene/read_scene.h"
@@ -20,6 +21,7 @@ namespace jawari::host {
 namespace {
 
 const std::map<std::string, Scheme> schemes{{"exact", Scheme::Exact}, {"theta", Scheme::Theta}};
+const std::map<std::string, Quality> qualities = quality_words();
 const std::map<std::string, Start> starts{{"exact", Start::Exact}, {"backward", Start::Backward}};
 const std::map<std::string, ImpactLaw> laws{{"newton", ImpactLaw::Newton},
                                             {"passive", ImpactLaw::Passive},
@@ -54,6 +56,8 @@ void add_settings(CLI::App& app, Overrides& overrides) {
     app.add_option("--duration", overrides.duration_s, "Length of the simulation [s]")
         ->type_name("S")
         ->check(number_between(0, longest_duration_s));
+    add_choice(app, "--quality", overrides.quality, qualities,
+               "Cut the modes and choose the contact rate for an error of 20, 1 or 0.1 %");
     add_choice(app, "--scheme", overrides.scheme, schemes, "Time-stepping scheme");
     app.add_option("--theta", overrides.theta, "Parameter of --scheme theta, 0.5 to 1")
         ->type_name("X")

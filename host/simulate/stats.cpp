@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "jawari/cost.h"
 #include "jawari/energy.h"
 
 namespace jawari::host {
@@ -34,6 +35,7 @@ SimulationStats collect_stats(const Scene& scene, const SceneModel& model, const
     stats.metering = metering;
     stats.rows = rows;
     stats.sound_s = static_cast<double>(rows - 1) / model.output_rate_hz;
+    stats.worst_frame_multiply_adds = worst_frame_cost(model);
     for (std::size_t s = 0; s < model.strings.size(); ++s)
         stats.strings.push_back(
             collect_string(scene.description.strings[s], model.strings[s], state.strings[s]));

@@ -34,6 +34,7 @@ struct SimulationStats {
     double cpu_compile_s = 0;
     double cpu_render_s = 0;
     double cpu_output_s = 0;
+    double worst_frame_multiply_adds = 0;  ///< worst_frame_cost(): every contact pressed on in every step
     std::vector<StringStats> strings;
 };
 

@@ -107,7 +107,8 @@ std::string stats_json(const SimulationStats& stats) {
               {"cpu_compile_s", stats.cpu_compile_s},
               {"cpu_render_s", stats.cpu_render_s},
               {"cpu_output_s", stats.cpu_output_s},
-              {"real_time_factor", or_null(real_time_factor(stats))}};
+              {"real_time_factor", or_null(real_time_factor(stats))},
+              {"worst_frame_multiply_adds", stats.worst_frame_multiply_adds}};
     add_totals(json, stats);
     for (const StringStats& string : stats.strings) json["strings"].push_back(string_json(string));
     // A scene's name may hold any bytes; those that are no UTF-8 become replacement characters.

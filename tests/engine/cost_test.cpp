@@ -1,0 +1,57 @@
+// The known cost of a frame: counted by hand for a small string, and in order.
+#include "jawari/cost.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes.h"
+
+namespace jawari {
+namespace {
+
+StringModel string_with(std::size_t modes, std::size_t contacts, double contact_rate_hz) {
+    SceneDescription scene;
+    scene.contact_rate_hz = contact_rate_hz;
+    scene.strings.push_back(test::bass_string(modes));
+    scene.strings[0].contacts.resize(contacts);
+    return test::compiled_string(scene);
+}
+
+TEST(FrameCost, AFreeStringCostsItsFlight) {
+    const FrameCost cost = frame_cost(string_with(16, 0, 48000 * 5));
+    EXPECT_EQ(cost.flight, 4 * 16);
+    EXPECT_EQ(cost.permanent_contact, cost.flight);
+}
+
+TEST(FrameCost, OneContactCountedByHand) {
+    // 16 modes, one contact, five steps: bounds 17, three sums over them for the one group, gaps at both
+    // ends, flight 4; gap and rate at the start; five steps of three for the motion and one for the rate;
+    // five of three and one for the impulse, four to add it up. Then 15 responses and five gaps, and five
+    // solves of two products and one residual.
+    const double looking = 16 * (17 + 3 + 2 + 4);
+    const double rates = 16 * (2 + 5 * 4);
+    const double impulses = 16 * (5 * 4 + 4);
+    const double contact = 15 + 5 + 5 * (2 + 1);
+    EXPECT_EQ(frame_cost(string_with(16, 1, 48000 * 5)).permanent_contact,
+              looking + rates + impulses + contact);
+}
+
+TEST(FrameCost, ABoundIsNoLessThanPermanentContactAndThatNoLessThanFlight) {
+    for (const std::size_t contacts : {1U, 5U, 20U}) {
+        for (const double rate_hz : {48e3, 192e3, 2016e3}) {
+            const FrameCost cost = frame_cost(string_with(100, contacts, rate_hz));
+            EXPECT_GT(cost.permanent_contact, cost.flight);
+            EXPECT_GE(cost.bound, cost.permanent_contact);
+        }
+    }
+}
+
+TEST(FrameCost, OfASceneIsTheSumOverItsStrings) {
+    SceneDescription scene;
+    scene.strings = {test::bass_string(50), test::bass_string(80)};
+    const SceneModel model = compile(scene).value();
+    EXPECT_EQ(worst_frame_cost(model), frame_cost(model.strings[0]).permanent_contact +
+                                           frame_cost(model.strings[1]).permanent_contact);
+}
+
+}  // namespace
+}  // namespace jawari
