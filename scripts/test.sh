@@ -37,8 +37,11 @@ stage() {
     fi
 }
 
+# build PRESET [TARGET...]: all of it unless told.
 build() {
-    cmake --preset "$1" && cmake --build --preset "$1" --parallel "$jobs"
+    local preset=$1
+    shift
+    cmake --preset "$preset" && cmake --build --preset "$preset" --parallel "$jobs" ${1:+--target "$@"}
 }
 
 # tests PRESET CTEST-ARGUMENTS...: a test run whose closing lines are repeated at the end.
@@ -72,8 +75,9 @@ if $full; then
     stage "build (dev: warnings are errors)" build dev
     stage "lint" scripts/lint.sh
     # Oracles and soaks check numbers, which the release run has done; here only memory and threads are at stake.
-    stage "build (asan-ubsan)" build asan-ubsan && tests asan-ubsan -LE 'peers|long|examples'
-    stage "build (tsan)" build tsan && tests tsan -LE 'peers|long|examples'
+    stage "build (asan-ubsan)" build asan-ubsan && tests asan-ubsan -LE 'peers|presets|examples'
+    # Threads exist in the program alone: the tests that run it.
+    stage "build (tsan)" build tsan jawari host_tests && tests tsan -R Program
     stage "build (fuzz)" build fuzz && stage "fuzzing" fuzz
 fi
 

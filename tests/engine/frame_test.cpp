@@ -5,73 +5,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "agreement.h"
 #include "scenes.h"
 
 namespace jawari {
 namespace {
 
-struct Rendered {
-    std::vector<double> samples;
-    Counters counters;
-};
-
-Rendered run(const SceneModel& model, const Skipping& skipping, std::size_t frames,
-             std::uint64_t perturbation_seed = 0) {
-    SceneState state = make_state(model, Metering::Off, skipping);
-    if (perturbation_seed != 0) {  // by half a rounding error up or down
-        test::RandomScene random(perturbation_seed);
-        for (double& q : state.strings[0].displacement)
-            q *= random.count(0, 1) == 0 ? 1 - 1.2e-16 : 1 + 2.3e-16;
-        notice_change(model.strings[0], state.strings[0]);
-    }
-    Rendered result;
-    std::vector<std::vector<double>> signals(model.probe_count, std::vector<double>(frames));
-    std::vector<double*> outputs;
-    for (auto& signal : signals) outputs.push_back(signal.data());
-    render(model, state, outputs, frames);
-    for (const auto& signal : signals)
-        result.samples.insert(result.samples.end(), signal.begin(), signal.end());
-    result.counters = state.strings[0].counters;
-    return result;
-}
-
-double largest(const std::vector<double>& samples) {
-    double peak = 0;
-    for (const double x : samples) peak = std::max(peak, std::abs(x));
-    return peak;
-}
-
-double distance(const std::vector<double>& a, const std::vector<double>& b) {
-    double worst = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
-    return worst / std::max(largest(b), 1e-300);
-}
+using test::distance;
+using test::Rendered;
+using test::run;
 
 /// Compares with uniform stepping as closely as rounding lets two uniform runs agree.
 void expect_same(const SceneDescription& scene, const Skipping& skipping, std::size_t frames,
                  const std::string& what) {
     const auto compiled = compile(scene);
     ASSERT_TRUE(compiled) << compiled.failure().line();
-    const SceneModel& model = compiled.value();
-    const Rendered uniform = run(model, skip_nothing, frames);
-    const Rendered skipped = run(model, skipping, frames);
-    double sensitivity = 0;
-    std::uint64_t impulse_spread = 0;
-    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-        const Rendered perturbed = run(model, skip_nothing, frames, seed);
-        sensitivity = std::max(sensitivity, distance(perturbed.samples, uniform.samples));
-        const auto [fewer, more] = std::minmax(perturbed.counters.impulses, uniform.counters.impulses);
-        impulse_spread = std::max(impulse_spread, more - fewer);
-    }
-    EXPECT_LE(distance(skipped.samples, uniform.samples), std::max(1e-11, 100 * sensitivity)) << what;
-    EXPECT_EQ(skipped.counters.steps, uniform.counters.steps) << what;
-    if (sensitivity < 1e-9) {
-        // Uniform runs differ among themselves by impulses at the edge of rounding (a resting contact that
-        // just lifts).
-        EXPECT_NEAR(static_cast<double>(skipped.counters.impulses),
-                    static_cast<double>(uniform.counters.impulses), static_cast<double>(2 * impulse_spread))
-            << what;
-    }
+    const test::Agreement found = test::agreement(compiled.value(), skipping, frames);
+    EXPECT_LE(found.difference, found.allowed()) << what;
+    EXPECT_TRUE(found.same_steps) << what;
+    EXPECT_TRUE(found.counts_agree())
+        << what << ": " << found.impulses_skipped << " impulses for " << found.impulses;
 }
 
 std::size_t frames_of_steps(const SceneDescription& scene, double steps) {
