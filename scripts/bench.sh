@@ -65,7 +65,7 @@ scripts/setup.sh --bench
 mkdir -p build
 cmake --preset release > build/bench-configure.log 2>&1 || { cat build/bench-configure.log >&2; exit 1; }
 cmake --build --preset release --parallel "$(nproc)" --target jawari trajectory coefficient_accuracy memory_and_compile \
-    kernel_loop speed_tables kernel_benchmarks
+    kernel_loop speed_tables kernel_benchmarks exactness resolution_errors adversarial
 for stage in "${stages[@]}"; do
     start=$SECONDS
     echo "== $stage"

@@ -2,7 +2,7 @@
 """Fills the tables of docs/benchmarks.md with what the benchmark programs print.
 
 Usage: scripts/speed_page.py BIN_FOLDER
-BIN_FOLDER holds speed_tables and kernel_benchmarks, e.g. build/release/bin.
+BIN_FOLDER holds speed_tables, exactness, resolution_errors, adversarial and kernel_benchmarks, e.g. build/release/bin.
 """
 import pathlib
 import re
@@ -28,6 +28,21 @@ def kernel_table(text):
     return "\n".join(rows)
 
 
+EXACTNESS_RUNS = [("lab/bass", "0.05", "8064000"), ("lab/one-contact", "0.05", "8064000"), ("lab/fretless", "0.05", "1008000"),
+                  ("lab/fretless", "0.002", "8064000")]
+
+
+def exactness_row(folder, scene, sound_s, highest_rate_hz):
+    """One row over all rows that the program prints."""
+    run = subprocess.run([folder / "exactness", scene, sound_s, highest_rate_hz], capture_output=True, text=True)
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in run.stdout.splitlines() if line.endswith(("yes |", "NO |"))]
+    if run.returncode not in (0, 1) or not rows:
+        sys.exit(f"exactness {scene}: {run.stderr.strip()}")
+    calm = [float(row[3]) for row in rows if float(row[4]) < 1e-9]
+    disagree = sum(row[7] == "NO" for row in rows)
+    return f"| `{scene}` | {sound_s} | {len(rows)} | {max(calm):.1e} (of {len(calm)} rows) | {disagree} |"
+
+
 def replace_tables(page, heading_text, tables):
     """Replaces the run of table lines and blank lines that follows `heading_text`."""
     pattern = re.compile(re.escape(heading_text) + r"\n\n(?:[A-Z]+\n|(?:\|.*\n|\n(?=\|))+)")
@@ -37,11 +52,21 @@ def replace_tables(page, heading_text, tables):
     return page
 
 
+def replace_section(page, before, content):
+    """Replaces what stands between `before` and the next heading or paragraph that begins with `A string`."""
+    begin = page.index(before) + len(before)
+    end = re.compile(r"\n(?=## |A string that lies)").search(page, begin).start()
+    return page[:begin] + content.strip() + "\n" + page[end:]
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__.strip())
     folder = pathlib.Path(sys.argv[1])
     blocks = printed(folder / "speed_tables").strip().split("\n\n")
+    exactness = "\n".join(exactness_row(folder, *run) for run in EXACTNESS_RUNS)
+    resolution = printed(folder / "resolution_errors")
+    held = printed(folder / "adversarial")
     kernels = printed(folder / "kernel_benchmarks", "--benchmark_format=csv")
     path = pathlib.Path(__file__).resolve().parent.parent / "docs" / "benchmarks.md"
     page = path.read_text()
@@ -54,6 +79,10 @@ def main():
     page = replace_tables(page, "Scaling, each table relative to its first row:", "\n\n".join(blocks[2:]))
     page = replace_tables(
         page, "frames: free motion of all modes through 64 steps in registers with p gap rates.", kernel_table(kernels))
+    page = replace_section(page, "| scene | sound (s) | rows | largest difference where uniform runs agree to 1e-9 | rows that disagree |\n"
+                                 "|---|---|---|---|---|\n", exactness)
+    page = replace_section(page, "far more sensitive: there a quality's error is not its target.\n\n", resolution)
+    page = replace_section(page, "number into time.\n\n", held)
     path.write_text(page)
 
 
