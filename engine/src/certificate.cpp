@@ -22,11 +22,6 @@ double frame_travel(const StringModel& model, double speed) {
     return speed * (frame_length(model) + lookahead(model));
 }
 
-/// Clearances are not worth their computation while the string strikes, and do not hold under excitation.
-bool may_be_clear(const StringState& state) {
-    return !is_excited(state) && !state.certificate.struck;
-}
-
 bool stays_clear(const StringModel& model, const StringState& state, std::size_t g) {
     return !is_excited(state) &&
            state.certificate.group_clearance[g] > lookahead(model) * state.certificate.group_speed[g];
@@ -48,7 +43,7 @@ std::size_t find_watched(const StringModel& model, StringState& state, double fr
         if (!(*std::min_element(first, last) > limit_of(g)))
             bounds.expired_groups[groups++] = static_cast<std::uint32_t>(g);
     }
-    if (may_be_clear(state)) complete_clearances(model, state, {bounds.expired_groups.data(), groups});
+    if (!is_excited(state)) complete_clearances(model, state, {bounds.expired_groups.data(), groups});
     std::size_t watched = 0;
     for (std::size_t i = 0; i < groups; ++i) {
         const auto g = bounds.expired_groups[i];
@@ -83,7 +78,7 @@ std::size_t find_expired_groups(const StringModel& model, StringState& state) {
 std::size_t find_expired(const StringModel& model, StringState& state) {
     CertificateState& bounds = state.certificate;
     const std::size_t groups = find_expired_groups(model, state);
-    if (may_be_clear(state)) complete_clearances(model, state, {bounds.expired_groups.data(), groups});
+    if (!is_excited(state)) complete_clearances(model, state, {bounds.expired_groups.data(), groups});
     std::size_t expired = 0;
     for (std::size_t i = 0; i < groups; ++i) {
         const auto g = bounds.expired_groups[i];
@@ -219,8 +214,7 @@ void set_group_margins(const StringModel& model, StringState& state) {
 
 void plan_free_frames(const StringModel& model, StringState& state) JAWARI_REALTIME {
     CertificateState& bounds = state.certificate;
-    std::uint64_t frames =
-        std::min<std::uint64_t>(frames_until_refresh(state), bounds.struck ? 1 : longest_plan);
+    std::uint64_t frames = std::min<std::uint64_t>(frames_until_refresh(state), longest_plan);
     const auto speeds = bounds.group_speed.begin();
     const bool finite = std::all_of(speeds, speeds + static_cast<std::ptrdiff_t>(group_count(model)),
                                     [](double speed) { return std::isfinite(speed); });

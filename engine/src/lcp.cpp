@@ -12,6 +12,8 @@ namespace {
 // (coincident contacts).
 constexpr double dependent_pivot = 1e-13;
 constexpr int predictor_sweeps = 2;
+// Solves in a row with the same active set, after which its inverse is worth making.
+constexpr std::size_t lasting = 8;
 // A solution whose residual is larger than this share of the worst violation is none.
 constexpr double largest_relative_residual = 1e-6;
 
@@ -115,16 +117,16 @@ Inverse inverse_of_active(const Problem& p) {
     return {p.work.inverse.data(), n, n};
 }
 
-/// The second time in a row that a small active set is kept, its inverse is made; from then on it serves.
+/// When a small active set has lasted, its inverse is made; from then on it serves.
 void solve_kept_set(const Problem& p) {
     LcpWorkspace& work = p.work;
     work.repeated += 1;
-    if (work.repeated < 2 || work.active_count > largest_inverse) {
+    if (work.repeated < lasting || work.active_count > largest_inverse) {
         solve_active(p);
         return;
     }
     Inverse inverse = inverse_of_active(p);
-    if (work.repeated == 2) {
+    if (work.repeated == lasting) {
         inverse.setIdentity();
         p.factor().triangularView<Eigen::Lower>().solveInPlace(inverse);
         p.factor().transpose().triangularView<Eigen::Upper>().solveInPlace(inverse);
