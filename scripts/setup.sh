@@ -38,6 +38,7 @@ packages_full=(
     clang-format      # scripts/lint.sh
     clang-tidy        # scripts/lint.sh
     clang             # libFuzzer builds
+    g++-aarch64-linux-gnu # scripts/check_neon.sh
     libclang-rt-14-dev # libFuzzer and sanitizer run times
     openttd-openmsx   # scripts/real_midi.py: music that nobody here wrote
     valgrind          # instruction counts

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Builds everything and runs all tests. Usage: scripts/test.sh [--full]
-#   --full: also a build with warnings as errors, lint, the tests under address, undefined-behaviour and thread
-#           sanitizers, each fuzz target for ten seconds, and instruction counts against their table.
+#   --full: also a build with warnings as errors, lint, the engine compiled for NEON and for one lane, the tests under
+#           address, undefined-behaviour and thread sanitizers, each fuzz target for ten seconds, and instruction counts
+#           against their table.
 # Every stage runs even if one before it failed; the summaries of all test runs close the output.
 set -uo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." || exit 1
@@ -74,6 +75,7 @@ if $full; then
     stage "instruction counts" benchmarks/instructions/count.py
     stage "build (dev: warnings are errors)" build dev
     stage "lint" scripts/lint.sh
+    stage "other instruction sets" scripts/check_neon.sh
     # Oracles and soaks check numbers, which the release run has done; here only memory and threads are at stake.
     stage "build (asan-ubsan)" build asan-ubsan && tests asan-ubsan -LE 'peers|presets|examples'
     # Threads exist in the program alone: the tests that run it.

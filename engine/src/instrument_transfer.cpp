@@ -24,8 +24,8 @@ struct Lengths {
 
 /// Integral over the new length of (u(d) - u(L') d/L') phi'_k with u = sum_j a_j sin(beta_j d):
 ///     -(N'/alpha_k) sum_j a_j sin(beta_j L') beta_j^2/(beta_j^2 - alpha_k^2),     N' = sqrt(2/L').
-/// `a` holds a_j and is spent.
-void project_onto_shorter(const Lengths& lengths, double* a, double* out) {
+/// `a` holds a_j.
+void project_onto_shorter(const Lengths& lengths, const double* a, double* out) {
     const double scale = std::sqrt(2 / lengths.to_m);
     for (std::size_t k = 1; k <= lengths.to_modes; ++k) {
         const double alpha = static_cast<double>(k) * pi / lengths.to_m;
@@ -60,7 +60,7 @@ void project_onto_longer(const Lengths& lengths, const double* a, double* out) {
     }
 }
 
-void project(const Lengths& lengths, double* a, double* out) {
+void project(const Lengths& lengths, const double* a, double* out) {
     if (lengths.to_m > lengths.from_m) {
         project_onto_longer(lengths, a, out);
     } else {

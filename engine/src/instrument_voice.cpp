@@ -153,8 +153,14 @@ void strike_voice(const InstrumentModel& model, const InstrumentStringModel& str
     const bool placed = place.share > 0 || place.from_bridge_m > 0;
     const double x = placed ? place_on(stopped, place, position_factor) : 0.0;
     const double described_x = placed ? place_on(stopped, place, 1) : 0.0;
-    std::visit([&](const auto& body) { strike_with(body, model, string, voice, stroke, x, described_x); },
-               model.exciters[stroke.exciter].body);
+    // Not std::visit: it may throw.
+    const auto& body = model.exciters[stroke.exciter].body;
+    if (const auto* finger = std::get_if<FingerDescription>(&body))
+        strike_with(*finger, model, string, voice, stroke, x, described_x);
+    if (const auto* hammer = std::get_if<HammerDescription>(&body))
+        strike_with(*hammer, model, string, voice, stroke, x, described_x);
+    if (const auto* tangent = std::get_if<TangentDescription>(&body))
+        strike_with(*tangent, model, string, voice, stroke, x, described_x);
     voice.touches.outdated = true;
 }
 

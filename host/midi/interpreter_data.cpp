@@ -1,6 +1,7 @@
 // Registered and non-registered parameter numbers and the data that goes to them (MIDI 1.0;
 // RP-018 for increments).
 #include <algorithm>
+#include <cmath>
 
 #include "midi/interpreter_controllers.h"
 
@@ -84,11 +85,11 @@ void recall_data(MidiChannel& state) {
     state.data_msb = state.data_lsb = 0;
     if (state.target != DataTarget::Registered || state.number_msb != 0) return;
     if (state.number_lsb == bend_sensitivity) {
-        const int cents = static_cast<int>(100 * state.bend_range_semitones + 0.5);
+        const int cents = static_cast<int>(std::lround(100 * state.bend_range_semitones));
         state.data_msb = cents / 100;
         state.data_lsb = cents % 100;
     } else if (state.number_lsb == fine_tuning) {
-        const int value = static_cast<int>(8192 * (1 + state.fine_tuning_semitones) + 0.5);
+        const int value = static_cast<int>(std::lround(8192 * (1 + state.fine_tuning_semitones)));
         state.data_msb = std::min(value, 16383) / 128;
         state.data_lsb = std::min(value, 16383) % 128;
     }
