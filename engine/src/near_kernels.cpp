@@ -105,6 +105,8 @@ void run_with_few_rows(const ModeRun& run, const Steps& steps) {
 
 /// What happens to a tile of modes in a run of steps: first the impulses' drive, then the velocities; vectors
 /// of one step lie side by side.
+// Written before it is read, and too large to be cleared first.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
 struct TileMotion {
     std::size_t first_mode = 0;
     std::size_t vectors = 0;
