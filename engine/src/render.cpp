@@ -30,6 +30,11 @@ std::size_t linear_probes(const StringModel& model, std::span<double* const> out
 /// Strings do not act on one another, so each renders the whole block by itself.
 void render_string(const StringModel& model, StringState& state, std::span<double* const> outputs,
                    std::size_t frames, double frame_s) JAWARI_REALTIME {
+    if (sleeps_on(state)) {
+        for (double* output : outputs) std::fill_n(output, frames, 0.0);
+        pass_asleep(model, state, frames);
+        return;
+    }
     std::array<Reading, limits::probes> storage;
     const std::span<const Reading> readings(storage.data(), linear_probes(model, outputs, storage));
     if (readings.size() == outputs.size()) {
