@@ -215,7 +215,8 @@ double note_frequency(const InstrumentDescription& instrument, const InstrumentS
                       std::size_t fret) {
     const int semitones = semitones_of(frets_of(instrument, string), fret);
     if (uses_tuning(instrument))
-        return instrument.note_frequency_hz[static_cast<std::size_t>(string.open_note + semitones)];
+        return instrument.note_frequency_hz[static_cast<std::size_t>(string.open_note) +
+                                            static_cast<std::size_t>(semitones)];
     return string.open_frequency_hz * std::exp2(semitones / 12.0);
 }
 
