@@ -36,6 +36,7 @@ void complete_lookouts(const StringModel& model, StringState& state, std::size_t
         bounds.group_has_lookout[g] = 1;
         bounds.missing_groups[count++] = g;
     }
+    if (count == 0) return;
     const double* envelope = model.certificate.envelope.data();
     kernels::indexed_row_products(bounds.missing_groups.data(), count, low, model.stride, envelope,
                                   bounds.detour.data(), lookout.group_detour.data());
