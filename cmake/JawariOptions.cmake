@@ -12,4 +12,5 @@ endif()
 if(JAWARI_SANITIZE)
   add_compile_options(-fsanitize=${JAWARI_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${JAWARI_SANITIZE})
+  add_compile_definitions(JAWARI_SANITIZED)  # tests that a sanitizer slows down or contradicts look at it
 endif()

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds everything and runs all tests. Usage: scripts/test.sh [--full]
-#   --full: also a build with warnings as errors, lint, the engine compiled for NEON and for one lane, the tests under
+#   --full: also warnings as errors, lint, the engine compiled for NEON and for one lane, the tests under
 #           address, undefined-behaviour and thread sanitizers, each fuzz target for ten seconds, and instruction counts
 #           against their table.
 # Every stage runs even if one before it failed; the summaries of all test runs close the output.
@@ -42,7 +42,7 @@ stage() {
 build() {
     local preset=$1
     shift
-    cmake --preset "$preset" && cmake --build --preset "$preset" --parallel "$jobs" ${1:+--target "$@"}
+    cmake --preset "$preset" "${configure_arguments[@]}" && cmake --build --preset "$preset" --parallel "$jobs" ${1:+--target "$@"}
 }
 
 # tests PRESET CTEST-ARGUMENTS...: a test run whose closing lines are repeated at the end.
@@ -53,34 +53,34 @@ tests() {
     test_runs+=("" "$preset:" "$(sed -n '/% tests passed/,$p' "$logs/last")")
 }
 
-# Each target starts from its seeds and a fresh corpus; a crash leaves its input in build/fuzz/.
+# Each target starts from its seeds and a fresh corpus; a crash leaves its input in build/asan-ubsan/.
 fuzz() {
     local target
-    for target in build/fuzz/bin/fuzz_*; do
+    for target in build/asan-ubsan/bin/fuzz_*; do
         local name=${target##*/fuzz_}
         local corpus=$logs/corpus_$name
         mkdir -p "$corpus"
         echo "-- $name"
         "$target" -max_total_time=10 -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 -verbosity=0 \
-            -artifact_prefix="build/fuzz/$name-" "$corpus" "build/fuzz/seeds/$name" || return 1
+            -artifact_prefix="build/asan-ubsan/$name-" "$corpus" "build/asan-ubsan/seeds/$name" || return 1
     done
 }
 
 setup_arguments=()
 $full && setup_arguments=(--full)
 stage "setup" scripts/setup.sh "${setup_arguments[@]}" || exit 1
+configure_arguments=(-DJAWARI_WARNINGS_AS_ERRORS=$($full && echo ON || echo OFF))
 stage "build (release)" build release && tests release
 
 if $full; then
     stage "instruction counts" benchmarks/instructions/count.py
-    stage "build (dev: warnings are errors)" build dev
     stage "lint" scripts/lint.sh
     stage "other instruction sets" scripts/check_neon.sh
     # Oracles and soaks check numbers, which the release run has done; here only memory and threads are at stake.
-    stage "build (asan-ubsan)" build asan-ubsan jawari engine_tests host_tests rivals_tests && tests asan-ubsan -LE 'peers|presets|examples'
+    stage "build (asan-ubsan)" build asan-ubsan jawari engine_tests host_tests rivals_tests jawari_fuzzers &&
+        tests asan-ubsan -LE 'peers|presets|examples' && stage "fuzzing" fuzz
     # Threads exist in the program alone: the tests that run it.
     stage "build (tsan)" build tsan jawari host_tests && tests tsan -R Program
-    stage "build (fuzz)" build fuzz && stage "fuzzing" fuzz
 fi
 
 printf '\n== Summary (%d min %d s)\n' $((SECONDS / 60)) $((SECONDS % 60))

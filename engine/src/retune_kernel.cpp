@@ -16,7 +16,8 @@ using Vec = hn::Vec<Lanes>;
 
 /// Numbers of one group of modes.
 struct Step {
-    HWY_INLINE Step() {}  // written out so that it is compiled for the target, as Vec's own is
+    HWY_INLINE Step() {}  // NOLINT(modernize-use-equals-default): written out so that it is compiled for the
+                          // target, as Vec's own is
     Vec omega2, e, d, s, mobility;
     Vec qq, qv, vq, vv;
     Vec backward_q, backward_u;

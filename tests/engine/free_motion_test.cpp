@@ -16,7 +16,7 @@ namespace {
 
 using test::Real;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__OPTIMIZE__)
+#if defined(JAWARI_SANITIZED) || !defined(__OPTIMIZE__)
 constexpr std::size_t mode_stride =
     29;  // instrumented code: every 29th mode is enough to find what it looks for
 #else

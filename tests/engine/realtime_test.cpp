@@ -16,7 +16,7 @@
 #include "small_instrument.h"
 
 // Sanitizers replace the allocator themselves and make system calls of their own.
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__GLIBC__) && !defined(JAWARI_SANITIZED)
 #include <malloc.h>
 #include <sys/syscall.h>
 #include <unistd.h>

@@ -13,7 +13,7 @@ namespace jawari::test {
 
 /// Sanitizer and unoptimised builds look for memory faults, not for numbers: a share of the scenes is enough
 /// there.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__OPTIMIZE__)
+#if defined(JAWARI_SANITIZED) || !defined(__OPTIMIZE__)
 inline constexpr std::size_t share_of_scenes = 25;
 #else
 inline constexpr std::size_t share_of_scenes = 1;
