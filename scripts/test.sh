@@ -76,9 +76,9 @@ if $full; then
     stage "instruction counts" benchmarks/instructions/count.py
     stage "lint" scripts/lint.sh
     stage "other instruction sets" scripts/check_neon.sh
-    # Oracles and soaks check numbers, which the release run has done; here only memory and threads are at stake.
+    # Oracles, soaks and pitches check numbers, which the release run has done; here only memory and threads are at stake.
     stage "build (asan-ubsan)" build asan-ubsan jawari engine_tests host_tests rivals_tests jawari_fuzzers &&
-        tests asan-ubsan -LE 'peers|presets|examples' && stage "fuzzing" fuzz
+        tests asan-ubsan -LE 'peers|presets|examples|live' -E RenderPitch && stage "fuzzing" fuzz
     # Threads exist in the program alone: the tests that run it.
     stage "build (tsan)" build tsan jawari host_tests && tests tsan -R Program
 fi

@@ -307,7 +307,7 @@ TEST(Lcp, LargeNecksMeetTheOptimalityConditions) {
     // A necessary and sufficient certificate, in long double, where enumeration is out of reach.
     std::mt19937_64 random(4);
     std::size_t most_pressed = 0;
-    for (const std::size_t contacts : {128, 200, 300, 400}) {
+    for (const std::size_t contacts : {128UL, 200UL, 300UL, 400UL}) {
         for (const double coverage : {1.0, 1.5}) {
             const Problem problem =
                 neck(contacts, static_cast<int>(coverage * static_cast<double>(contacts)), random);
