@@ -53,9 +53,10 @@ HWY_INLINE void add_rows(const std::uint32_t* list, std::size_t count, const dou
 
 // -------------------------------------------------------------------------------------------- the active set
 
-void note_pivot(PivotTable& table, std::size_t j, bool enters) {
+void note_pivot(const StringModel& model, PivotTable& table, std::size_t j, bool enters) {
     table.pivots += 1;
     table.sign[j] = enters ? 1 : -1;
+    table.scale[j] = enters ? model.compliance[j * model.contact_stride + j] : 1;
     const auto contact = static_cast<std::uint32_t>(j);
     if (enters) {
         table.active[table.active_count++] = contact;
@@ -67,28 +68,50 @@ void note_pivot(PivotTable& table, std::size_t j, bool enters) {
     table.active_count -= 1;
 }
 
-/// One step of the symmetric sweep (Beaton 1964; Stewart, "Matrix Algorithms" I, 3.4): contact j becomes
-/// active or ceases to be. Afterwards the table is [S - A_BF A_FF^-1 A_FB, A_BF A_FF^-1; ., -A_FF^-1] again.
-void sweep(const StringModel& model, PivotTable& table, std::size_t j) {
+/// row <- row + factor pivot_row, but at contact j `at_pivot`. Whole vectors are stored, so that they can be
+/// loaded again without waiting.
+HWY_INLINE void eliminate(double* HWY_RESTRICT row, double factor, const double* HWY_RESTRICT pivot_row,
+                          std::size_t stride, std::size_t j, double at_pivot) {
     const Lanes d;
+    const Vec scale = hn::Set(d, factor);
+    const std::size_t c_of_j = j / hn::Lanes(d) * hn::Lanes(d);
+    const auto is_j = hn::Eq(hn::Iota(d, static_cast<double>(c_of_j)), hn::Set(d, static_cast<double>(j)));
+    const Vec old = hn::Load(d, row + c_of_j);
+    for (std::size_t c = 0; c < stride; c += hn::Lanes(d))
+        hn::Store(hn::MulAdd(scale, hn::Load(d, pivot_row + c), hn::Load(d, row + c)), d, row + c);
+    const Vec there = hn::MulAdd(scale, hn::Load(d, pivot_row + c_of_j), old);
+    hn::Store(hn::IfThenElse(is_j, hn::Set(d, at_pivot), there), d, row + c_of_j);
+}
+
+/// row <- scale row, but at contact j `at_pivot`.
+HWY_INLINE void scale_row(double* row, double scale, std::size_t stride, std::size_t j, double at_pivot) {
+    const Lanes d;
+    const Vec factor = hn::Set(d, scale);
+    for (std::size_t c = 0; c < stride; c += hn::Lanes(d)) {
+        const auto is_j = hn::Eq(hn::Iota(d, static_cast<double>(c)), hn::Set(d, static_cast<double>(j)));
+        const Vec scaled = hn::Mul(factor, hn::Load(d, row + c));
+        hn::Store(hn::IfThenElse(is_j, hn::Set(d, at_pivot), scaled), d, row + c);
+    }
+}
+
+/// One step of the symmetric sweep (Goodnight, "A tutorial on the SWEEP operator", 1979): contact j becomes
+/// active or ceases to be. Afterwards the table is again
+///     [ A_BB - A_BF A_FF^-1 A_FB    A_BF A_FF^-1 ]
+///     [ A_FF^-1 A_FB                -A_FF^-1     ]    for the active contacts F and all others B.
+void sweep(const StringModel& model, PivotTable& table, std::size_t j) {
     const std::size_t stride = model.contact_stride;
     double* pivot_row = table.values.data() + j * stride;
     const double pivot = pivot_row[j];
-    const double scale = 1 / std::abs(pivot);
+    const double inverse = 1 / pivot;
+    const double scale = std::abs(inverse);
     for (std::size_t i = 0; i < model.contact_count; ++i) {
-        if (i == j) continue;
-        double* row = table.values.data() + i * stride;
-        const double at_pivot = row[j];
-        const Vec factor = hn::Set(d, -at_pivot / pivot);
-        for (std::size_t c = 0; c < stride; c += hn::Lanes(d))
-            hn::Store(hn::MulAdd(factor, hn::Load(d, pivot_row + c), hn::Load(d, row + c)), d, row + c);
-        row[j] = at_pivot * scale;
+        const double entry = pivot_row[i];  // the table is symmetric
+        if (i != j)
+            eliminate(table.values.data() + i * stride, -entry * inverse, pivot_row, stride, j,
+                      entry * scale);
     }
-    const Vec factor = hn::Set(d, scale);
-    for (std::size_t c = 0; c < stride; c += hn::Lanes(d))
-        hn::Store(hn::Mul(factor, hn::Load(d, pivot_row + c)), d, pivot_row + c);
-    pivot_row[j] = -1 / pivot;
-    note_pivot(table, j, pivot > 0);
+    scale_row(pivot_row, scale, stride, j, -inverse);
+    note_pivot(model, table, j, pivot > 0);
 }
 
 /// The table of the operator itself: nothing is active.
@@ -96,6 +119,7 @@ void begin_table(const StringModel& model, PivotTable& table) {
     const std::size_t size = model.contact_count * model.contact_stride;
     std::copy_n(model.compliance.data(), size, table.values.begin());
     std::fill(table.sign.begin(), table.sign.end(), -1.0);
+    std::fill(table.scale.begin(), table.scale.end(), 1.0);
     table.of = model.compliance.data();
     table.active_count = 0;
     table.pivots = 0;
@@ -134,35 +158,25 @@ struct SolveTable {
 
 constexpr std::size_t none = limits::contacts;
 
-/// The contact whose impulse or gap is negative by most, in the unit of gaps; impulses may not be negative at
-/// all.
+/// The contact whose impulse is negative, or whose gap is below -tolerance, by most, in the unit of gaps; or
+/// `none`.
 std::size_t worst_of(const StringModel& model, const PivotTable& table, double tolerance) {
-    std::size_t worst = none;
-    double lowest = 0;
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
-        const bool active = table.sign[c] > 0;
-        const double value = table.solution[c];
-        if (!(value < (active ? 0 : -tolerance))) continue;
-        const double gap = active ? value * model.compliance[c * model.contact_stride + c] : value;
-        if (worst != none && gap >= lowest) continue;
-        lowest = gap;
-        worst = c;
-    }
-    return worst;
-}
-
-/// True if no entry of the solution is below -tolerance, and none of an impulse below 0.
-HWY_INLINE bool is_feasible(const PivotTable& table, std::size_t stride, double tolerance) {
     const Lanes d;
-    const Vec least = hn::Set(d, -tolerance);
-    Vec worst = hn::Zero(d);
-    for (std::size_t c = 0; c < stride; c += hn::Lanes(d)) {
-        const Vec active = hn::Max(hn::Load(d, table.sign.data() + c), hn::Zero(d));
-        const Vec slack =
-            hn::Sub(hn::Load(d, table.solution.data() + c), hn::NegMulAdd(active, least, least));
-        worst = hn::Min(worst, slack);
+    const Vec zero = hn::Zero(d);
+    const auto slack = [&](std::size_t c) {
+        const Vec allowed = hn::Min(hn::Mul(hn::Load(d, table.sign.data() + c), hn::Set(d, tolerance)), zero);
+        return hn::Mul(hn::Load(d, table.scale.data() + c),
+                       hn::Sub(hn::Load(d, table.solution.data() + c), allowed));
+    };
+    Vec least = zero;
+    for (std::size_t c = 0; c < model.contact_stride; c += hn::Lanes(d)) least = hn::Min(least, slack(c));
+    const double worst = hn::GetLane(hn::MinOfLanes(d, least));
+    if (!(worst < 0)) return none;
+    for (std::size_t c = 0; c < model.contact_stride; c += hn::Lanes(d)) {
+        const std::intptr_t lane = hn::FindFirstTrue(d, hn::Eq(slack(c), hn::Set(d, worst)));
+        if (lane >= 0) return c + static_cast<std::size_t>(lane);
     }
-    return hn::GetLane(hn::MinOfLanes(d, worst)) >= 0;
+    return none;
 }
 
 // -------------------------------------------------------------------------------------------------- one step
@@ -185,10 +199,17 @@ HWY_INLINE double predict(const StringModel& model, StringState& state, std::siz
     return hn::GetLane(hn::MinOfLanes(d, lowest));
 }
 
+/// Contacts with impulses in a step.
+struct Struck {
+    const std::uint32_t* list;
+    std::size_t count;
+};
+
 /// residual <- offset + A lambda
 struct SumResiduals {
     const StringModel& model;
     ContactState& contact;
+    Struck struck;
 
     template <std::size_t vectors>
     HWY_INLINE void run(std::size_t c) const {
@@ -196,41 +217,47 @@ struct SumResiduals {
         const std::size_t lanes = hn::Lanes(d);
         Vec sum[vectors];
         for (std::size_t i = 0; i < vectors; ++i) sum[i] = hn::Load(d, contact.offset.data() + c + i * lanes);
-        add_rows(contact.candidates.data(), contact.candidate_count, contact.impulse.data(),
-                 model.compliance.data(), model.contact_stride, c, sum);
+        add_rows(struck.list, struck.count, contact.impulse.data(), model.compliance.data(),
+                 model.contact_stride, c, sum);
         for (std::size_t i = 0; i < vectors; ++i)
             hn::Store(sum[i], d, contact.residual.data() + c + i * lanes);
     }
 };
 
-/// max |residual| over the candidates, which all have impulses here
-double largest_residual(const ContactState& contact) {
-    double largest = 0;
-    for (std::size_t i = 0; i < contact.candidate_count; ++i)
-        largest = std::max(largest, std::abs(contact.residual[contact.candidates[i]]));
-    return largest;
+/// impulse <- what the table found, or its correction; 0 where not active. Returns the largest |residual| of
+/// active contacts.
+template <bool corrects>
+HWY_INLINE double take_impulses(const StringModel& model, StringState& state) {
+    const Lanes d;
+    const PivotTable& table = state.short_frame.table;
+    ContactState& contact = state.contact;
+    const Vec zero = hn::Zero(d);
+    for (std::size_t c = 0; c < model.contact_stride; c += hn::Lanes(d)) {
+        const auto active = hn::Gt(hn::Load(d, table.sign.data() + c), zero);
+        Vec impulse = hn::Load(d, table.solution.data() + c);
+        if constexpr (corrects) impulse = hn::Add(impulse, hn::Load(d, contact.impulse.data() + c));
+        hn::Store(hn::IfThenElseZero(active, hn::Max(impulse, zero)), d, contact.impulse.data() + c);
+    }
+    for_contacts(model.contact_stride,
+                 SumResiduals{model, contact, {table.active.data(), table.active_count}});
+    Vec largest = zero;
+    for (std::size_t c = 0; c < model.contact_stride; c += hn::Lanes(d)) {
+        const auto active = hn::Gt(hn::Load(d, table.sign.data() + c), zero);
+        const Vec residual = hn::Abs(hn::Load(d, contact.residual.data() + c));
+        largest = hn::Max(largest, hn::IfThenElseZero(active, residual));
+    }
+    return hn::GetLane(hn::MaxOfLanes(d, largest));
 }
 
-/// The table's impulses, and one correction by what they leave. Returns the residual left.
-double take_impulses(const StringModel& model, StringState& state, double tolerance) {
-    ContactState& contact = state.contact;
-    PivotTable& table = state.short_frame.table;
-    contact.candidate_count = table.active_count;
-    std::copy_n(table.active.begin(), table.active_count, contact.candidates.begin());
-    std::fill_n(contact.impulse.begin(), model.contact_stride, 0.0);
-    for (std::size_t i = 0; i < table.active_count; ++i)
-        contact.impulse[table.active[i]] = table.solution[table.active[i]];
-    for_contacts(model.contact_stride, SumResiduals{model, contact});
-    const double residual = largest_residual(contact);
+/// The table's impulses, corrected by what they leave if that is more than rounding. Returns the residual
+/// left.
+double settle_impulses(const StringModel& model, StringState& state, double tolerance) {
+    const double residual = take_impulses<false>(model, state);
     if (!(residual > tolerance)) return residual;
-    for_contacts(model.contact_stride,
-                 SolveTable{table, contact.residual.data(), model.contact_stride, table.solution.data()});
-    for (std::size_t i = 0; i < table.active_count; ++i) {
-        const auto c = table.active[i];
-        contact.impulse[c] = std::max(0.0, contact.impulse[c] + table.solution[c]);
-    }
-    for_contacts(model.contact_stride, SumResiduals{model, contact});
-    return largest_residual(contact);
+    PivotTable& table = state.short_frame.table;
+    for_contacts(model.contact_stride, SolveTable{table, state.contact.residual.data(), model.contact_stride,
+                                                  table.solution.data()});
+    return take_impulses<true>(model, state);
 }
 
 /// The step's impulses from the active set of the last one by principal pivots. Returns false if that takes
@@ -243,16 +270,14 @@ bool solve_by_pivots(const StringModel& model, StringState& state, double lowest
     if (table.pivots > pivots_of_a_table) remake_table(model, table);
     for (std::size_t pivots = 0; pivots <= 2 * model.contact_count; ++pivots) {
         for_contacts(stride, SolveTable{table, state.contact.offset.data(), stride, table.solution.data()});
-        if (is_feasible(table, stride, tolerance)) {
-            const double residual = take_impulses(model, state, tolerance);
+        const std::size_t j = worst_of(model, table, tolerance);
+        if (j == none) {
+            const double residual = settle_impulses(model, state, tolerance);
             state.counters.worst_residual_m = std::max(state.counters.worst_residual_m, residual);
             return residual <= -largest_relative_residual * lowest;
         }
-        const std::size_t j = worst_of(model, table, tolerance);
-        const bool enters = j != none && table.sign[j] < 0;
-        if (j == none ||
-            (enters && !(table.values[j * stride + j] > dependent_pivot * model.compliance[j * stride + j])))
-            return false;
+        const double least = dependent_pivot * model.compliance[j * stride + j];
+        if (table.sign[j] < 0 && !(table.values[j * stride + j] > least)) return false;
         sweep(model, table, j);
     }
     return false;
@@ -271,31 +296,47 @@ void solve_in_general(const StringModel& model, StringState& state) {
         if (contact.impulse[c] > 0) contact.candidates[struck++] = static_cast<std::uint32_t>(c);
     }
     contact.candidate_count = struck;
-    for_contacts(model.contact_stride, SumResiduals{model, contact});
+    for_contacts(model.contact_stride, SumResiduals{model, contact, {contact.candidates.data(), struck}});
 }
 
-/// short_frame.impulses, `struck` and the sums of the frame receive the step's impulses.
-void keep_impulses(const StringModel& model, StringState& state, std::size_t n) {
+/// The step's impulses and the contacts that have them.
+Struck find_impulses(const StringModel& model, StringState& state, double lowest) {
+    if (solve_by_pivots(model, state, lowest)) {
+        state.counters.solves += 1;
+        return {state.short_frame.table.active.data(), state.short_frame.table.active_count};
+    }
+    solve_in_general(model, state);
+    return {state.contact.candidates.data(), state.contact.candidate_count};
+}
+
+/// short_frame.impulses of step n <- the step's impulses, which add to those of the frame.
+HWY_INLINE void keep_impulses(const StringModel& model, StringState& state, std::size_t n) {
+    const Lanes d;
     ContactState& contact = state.contact;
+    double* kept = state.short_frame.impulses.data() + n * model.contact_stride;
+    for (std::size_t c = 0; c < model.contact_stride; c += hn::Lanes(d)) {
+        const Vec impulse = hn::Load(d, contact.impulse.data() + c);
+        const Vec sum = hn::Add(hn::Load(d, contact.frame_impulse.data() + c), impulse);
+        hn::Store(impulse, d, kept + c);
+        hn::Store(sum, d, contact.frame_impulse.data() + c);
+        state.counters.impulses += hn::CountTrue(d, hn::Gt(impulse, hn::Zero(d)));
+    }
+}
+
+/// `struck` <- the contacts that had impulses in the frame.
+void list_struck(const StringModel& model, StringState& state) {
     ShortFrameState& frame = state.short_frame;
-    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
-        const auto c = contact.candidates[i];
-        const double impulse = contact.impulse[c];
-        if (!(impulse > 0)) continue;
-        double* impulses = frame.impulses.data() + c * model.response_stride;
-        if (contact.frame_impulse[c] == 0) {
-            frame.struck[frame.struck_count++] = c;
-            std::fill_n(impulses, model.response_stride, 0.0);
-        }
-        impulses[n] = impulse;
-        contact.frame_impulse[c] += impulse;
-        state.counters.impulses += 1;
+    frame.struck_count = 0;
+    for (std::size_t c = 0; c < model.contact_count; ++c) {
+        frame.struck[frame.struck_count] = static_cast<std::uint32_t>(c);
+        frame.struck_count += state.contact.frame_impulse[c] > 0 ? 1 : 0;
     }
 }
 
 /// rates of a later step += what the step's impulses do to them
 struct SpreadImpulses {
-    const ContactState& contact;
+    Struck struck;
+    const double* impulse;
     const double* responses;
     std::size_t stride;
     double* rates;
@@ -306,17 +347,16 @@ struct SpreadImpulses {
         const std::size_t lanes = hn::Lanes(d);
         Vec sum[vectors];
         for (std::size_t i = 0; i < vectors; ++i) sum[i] = hn::Load(d, rates + c + i * lanes);
-        add_rows(contact.candidates.data(), contact.candidate_count, contact.impulse.data(), responses,
-                 stride, c, sum);
+        add_rows(struck.list, struck.count, impulse, responses, stride, c, sum);
         for (std::size_t i = 0; i < vectors; ++i) hn::Store(sum[i], d, rates + c + i * lanes);
     }
 };
 
-void spread_impulses(const StringModel& model, StringState& state, std::size_t n) {
+void spread_impulses(const StringModel& model, StringState& state, std::size_t n, const Struck& struck) {
     const std::size_t stride = model.contact_stride;
     for (std::size_t later = n + 1; later < model.steps_per_frame; ++later) {
         const double* responses = model.step_response.data() + (later - n) * model.contact_count * stride;
-        for_contacts(stride, SpreadImpulses{state.contact, responses, stride,
+        for_contacts(stride, SpreadImpulses{struck, state.contact.impulse.data(), responses, stride,
                                             state.short_frame.rates.data() + later * stride});
     }
 }
@@ -343,23 +383,25 @@ bool solve_steps(const StringModel& model, StringState& state) {
     const Lanes d;
     ContactState& contact = state.contact;
     Vec lowest = hn::Zero(d);
-    state.short_frame.struck_count = 0;
+    bool any = false;
     for (std::size_t n = 0; n < model.steps_per_frame; ++n) {
         const double violation = predict(model, state, n);
-        if (!(violation < 0)) {
-            std::fill_n(contact.impulse.begin(), model.contact_stride, 0.0);
-            lowest = accept<false>(model, contact, lowest);
-            continue;
-        }
-        if (solve_by_pivots(model, state, violation)) {
-            state.counters.solves += 1;
+        if (violation < 0) {
+            const Struck struck = find_impulses(model, state, violation);
+            keep_impulses(model, state, n);
+            spread_impulses(model, state, n, struck);
+            lowest = accept<true>(model, contact, lowest);
+            any = true;
         } else {
-            solve_in_general(model, state);
+            std::fill_n(contact.impulse.begin(), model.contact_stride, 0.0);
+            std::fill_n(
+                state.short_frame.impulses.begin() + static_cast<std::ptrdiff_t>(n * model.contact_stride),
+                model.contact_stride, 0.0);
+            lowest = accept<false>(model, contact, lowest);
         }
-        keep_impulses(model, state, n);
-        spread_impulses(model, state, n);
-        lowest = accept<true>(model, contact, lowest);
     }
+    state.short_frame.struck_count = 0;
+    if (any) list_struck(model, state);
     state.counters.candidates += model.steps_per_frame * model.contact_count;
     state.counters.worst_penetration_m =
         std::max(state.counters.worst_penetration_m, -hn::GetLane(hn::MinOfLanes(d, lowest)));

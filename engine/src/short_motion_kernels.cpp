@@ -19,9 +19,21 @@ using Vec = hn::Vec<Lanes>;
 
 /// Vectors of modes that move side by side.
 constexpr std::size_t width = 4;
-/// Vectors and steps of a block of sums: twelve sums hide the latency of their additions.
-constexpr std::size_t block_vectors = 3;
+/// Steps of a block of sums. With up to three vectors their sums fit the registers and hide the latency of
+/// their additions.
 constexpr std::size_t block_steps = 4;
+
+/// Calls work.run<vectors>(i) for all vectors of `size` doubles, three at a time, or two where one would be
+/// left.
+template <class Work>
+HWY_INLINE void for_blocks(std::size_t size, const Work& work) {
+    const std::size_t lanes = hn::Lanes(Lanes());
+    std::size_t left = size / lanes;
+    std::size_t i = 0;
+    for (; left == 3 || left > 4; left -= 3, i += 3 * lanes) work.template run<3>(i);
+    for (; left > 1; left -= 2, i += 2 * lanes) work.template run<2>(i);
+    if (left > 0) work.template run<1>(i);
+}
 
 /// 0 as long as both are finite, NaN from then on.
 HWY_INLINE Vec finite_probe(Vec q, Vec v, Vec probe) {
@@ -98,7 +110,8 @@ HWY_INLINE void sum_rates(const StringModel& model, StringState& state, std::siz
     for (std::size_t j = 0; j < steps; ++j) {
         for (std::size_t i = 0; i < vectors; ++i) sum[j][i] = hn::Zero(d);
     }
-    for (std::size_t k = 0; k < state.active_modes; ++k, column += stride) {
+    const std::size_t modes = state.active_modes;
+    for (std::size_t k = 0; k < modes; ++k, column += stride) {
         Vec shape[vectors];
         for (std::size_t i = 0; i < vectors; ++i) shape[i] = hn::Load(d, column + i * lanes);
         for (std::size_t j = 0; j < steps; ++j) {
@@ -112,21 +125,22 @@ HWY_INLINE void sum_rates(const StringModel& model, StringState& state, std::siz
     }
 }
 
-template <std::size_t vectors>
-void sum_rates_of_block(const StringModel& model, StringState& state, std::size_t c) {
-    std::size_t n = 0;
-    for (; n + block_steps <= model.steps_per_frame; n += block_steps)
-        sum_rates<vectors, block_steps>(model, state, c, n);
-    for (; n < model.steps_per_frame; ++n) sum_rates<vectors, 1>(model, state, c, n);
-}
+struct SumRates {
+    const StringModel& model;
+    StringState& state;
+
+    template <std::size_t vectors>
+    HWY_INLINE void run(std::size_t c) const {
+        std::size_t n = 0;
+        for (; n + block_steps <= model.steps_per_frame; n += block_steps)
+            sum_rates<vectors, block_steps>(model, state, c, n);
+        for (; n < model.steps_per_frame; ++n) sum_rates<vectors, 1>(model, state, c, n);
+    }
+};
 
 bool run_freely(const StringModel& model, StringState& state) {
-    const std::size_t lanes = hn::Lanes(Lanes());
     const bool finite = is_excited(state) ? move_modes<true>(model, state) : move_modes<false>(model, state);
-    std::size_t c = 0;
-    for (; c + block_vectors * lanes <= model.contact_stride; c += block_vectors * lanes)
-        sum_rates_of_block<block_vectors>(model, state, c);
-    for (; c < model.contact_stride; c += lanes) sum_rates_of_block<1>(model, state, c);
+    for_blocks(model.contact_stride, SumRates{model, state});
     return finite;
 }
 
@@ -145,11 +159,11 @@ HWY_INLINE void sum_impulses(const StringModel& model, const StringState& state,
     for (std::size_t s = 0; s < frame.struck_count; ++s) {
         const std::size_t c = frame.struck[s];
         const double* row = model.contact_rows.data() + c * model.stride + k;
-        const double* impulses = frame.impulses.data() + c * model.response_stride + n;
+        const double* impulses = frame.impulses.data() + n * model.contact_stride + c;
         Vec shape[vectors];
         for (std::size_t i = 0; i < vectors; ++i) shape[i] = hn::Load(d, row + i * lanes);
         for (std::size_t j = 0; j < steps; ++j) {
-            const Vec impulse = hn::Set(d, impulses[j]);
+            const Vec impulse = hn::Set(d, impulses[j * model.contact_stride]);
             for (std::size_t i = 0; i < vectors; ++i)
                 drive[j][i] = hn::MulAdd(shape[i], impulse, drive[j][i]);
         }
@@ -176,36 +190,37 @@ HWY_INLINE void respond(const StringModel& model, const StringState& state, std:
 }
 
 /// The response is run for unit mobility and scaled when it is added.
-template <std::size_t vectors>
-HWY_INLINE Vec respond_block(const StringModel& model, StringState& state, std::size_t k, Vec probe) {
-    const Lanes d;
-    const std::size_t lanes = hn::Lanes(d);
-    Vec q[vectors], v[vectors];
-    for (std::size_t i = 0; i < vectors; ++i) q[i] = v[i] = hn::Zero(d);
-    std::size_t n = 0;
-    for (; n + block_steps <= model.steps_per_frame; n += block_steps)
-        respond<vectors, block_steps>(model, state, k, n, q, v);
-    for (; n < model.steps_per_frame; ++n) respond<vectors, 1>(model, state, k, n, q, v);
-    for (std::size_t i = 0; i < vectors; ++i) {
-        const std::size_t at = k + i * lanes;
-        const Vec mobility = hn::Load(d, model.mobility.data() + at);
-        const Vec q_end = hn::MulAdd(mobility, q[i], hn::Load(d, state.displacement_flown.data() + at));
-        const Vec v_end = hn::MulAdd(mobility, v[i], hn::Load(d, state.velocity_flown.data() + at));
-        hn::Store(q_end, d, state.displacement_flown.data() + at);
-        hn::Store(v_end, d, state.velocity_flown.data() + at);
-        probe = finite_probe(q_end, v_end, probe);
+struct AddResponse {
+    const StringModel& model;
+    StringState& state;
+    Vec& probe;
+
+    template <std::size_t vectors>
+    HWY_INLINE void run(std::size_t k) const {
+        const Lanes d;
+        const std::size_t lanes = hn::Lanes(d);
+        Vec q[vectors], v[vectors];
+        for (std::size_t i = 0; i < vectors; ++i) q[i] = v[i] = hn::Zero(d);
+        std::size_t n = 0;
+        for (; n + block_steps <= model.steps_per_frame; n += block_steps)
+            respond<vectors, block_steps>(model, state, k, n, q, v);
+        for (; n < model.steps_per_frame; ++n) respond<vectors, 1>(model, state, k, n, q, v);
+        for (std::size_t i = 0; i < vectors; ++i) {
+            const std::size_t at = k + i * lanes;
+            const Vec mobility = hn::Load(d, model.mobility.data() + at);
+            const Vec q_end = hn::MulAdd(mobility, q[i], hn::Load(d, state.displacement_flown.data() + at));
+            const Vec v_end = hn::MulAdd(mobility, v[i], hn::Load(d, state.velocity_flown.data() + at));
+            hn::Store(q_end, d, state.displacement_flown.data() + at);
+            hn::Store(v_end, d, state.velocity_flown.data() + at);
+            probe = finite_probe(q_end, v_end, probe);
+        }
     }
-    return probe;
-}
+};
 
 bool add_response(const StringModel& model, StringState& state) {
     const Lanes d;
-    const std::size_t lanes = hn::Lanes(d);
     Vec probe = hn::Zero(d);
-    std::size_t k = 0;
-    for (; k + block_vectors * lanes <= model.stride; k += block_vectors * lanes)
-        probe = respond_block<block_vectors>(model, state, k, probe);
-    for (; k < model.stride; k += lanes) probe = respond_block<1>(model, state, k, probe);
+    for_blocks(model.stride, AddResponse{model, state, probe});
     return hn::GetLane(hn::SumOfLanes(d, probe)) == 0;
 }
 

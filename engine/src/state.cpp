@@ -88,10 +88,11 @@ ShortFrameState make_short_frame_state(const StringSizes& sizes) {
     if (contacts == 0) return frame;
     frame.velocities.assign(sizes.short_steps * sizes.stride, 0.0);
     frame.rates.assign(sizes.short_steps * contacts, 0.0);
-    frame.impulses.assign(contacts * sizes.response_stride, 0.0);
+    frame.impulses.assign(sizes.short_steps * contacts, 0.0);
     frame.struck.assign(contacts, 0);
     frame.table.values.assign(contacts * contacts, 0.0);
-    for (auto* array : {&frame.table.sign, &frame.table.solution}) array->assign(contacts, 0.0);
+    for (auto* array : {&frame.table.sign, &frame.table.scale, &frame.table.solution})
+        array->assign(contacts, 0.0);
     for (auto* list : {&frame.table.active, &frame.table.kept}) list->assign(contacts, 0);
     return frame;
 }

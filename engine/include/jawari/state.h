@@ -160,6 +160,7 @@ struct PivotTable {
     const double* of = nullptr;         ///< the operator, or null if the table is not made
     AlignedVector<double> values;       ///< contacts x contact_stride
     AlignedVector<double> sign;         ///< 1: active, -1: not; over contacts
+    AlignedVector<double> scale;        ///< makes gaps of the solution: A_cc of active contacts, else 1
     AlignedVector<double> solution;     ///< scratch: impulses of active contacts, gaps above target of others
     std::vector<std::uint32_t> active;  ///< `active_count` are valid
     std::vector<std::uint32_t> kept;    ///< scratch
@@ -171,7 +172,7 @@ struct PivotTable {
 struct ShortFrameState {
     AlignedVector<double> velocities;   ///< scratch: v of free flight at each step, steps x stride
     AlignedVector<double> rates;        ///< scratch: S v at each step, steps x contact_stride
-    AlignedVector<double> impulses;     ///< lambda of the struck contacts at each step, response_stride apart
+    AlignedVector<double> impulses;     ///< lambda at each step, steps x contact_stride
     std::vector<std::uint32_t> struck;  ///< contacts with impulses in the frame; `struck_count` are valid
     std::size_t struck_count = 0;
     std::uint64_t gaps_at = 0;  ///< frame at whose start contact.gap and gap_before hold for all contacts
