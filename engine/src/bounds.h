@@ -33,6 +33,9 @@ inline constexpr std::size_t contacts_with_own_bounds = 64;
 /// Modes that the lookout flies ahead.
 inline constexpr std::size_t lookout_modes = 64;
 
+/// Frames that are planned at a time.
+inline constexpr std::uint64_t longest_plan = 16;
+
 inline std::size_t low_modes(const StringModel& model) {
     return std::min(lookout_modes, model.stride);
 }

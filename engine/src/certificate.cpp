@@ -13,8 +13,6 @@
 namespace jawari {
 namespace {
 
-/// Frames that are planned at a time.
-constexpr std::uint64_t longest_plan = 16;
 constexpr std::uint64_t unknown_frame = std::numeric_limits<std::uint64_t>::max();
 
 /// How far a group's gaps may move in the coming frame, the law's lookahead included.
@@ -275,6 +273,7 @@ void forget_bounds(StringState& state) JAWARI_REALTIME {
     bounds.outdated = true;
     bounds.free_frames = 0;
     bounds.struck = false;
+    state.short_frame.gaps_at = unknown_frame;
     std::fill(bounds.open_until.begin(), bounds.open_until.end(), -std::numeric_limits<double>::infinity());
     std::fill(bounds.frame_gap_at.begin(), bounds.frame_gap_at.end(), unknown_frame);
     std::fill(bounds.certified_at.begin(), bounds.certified_at.end(), unknown_frame);

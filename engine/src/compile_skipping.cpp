@@ -7,6 +7,7 @@
 #include "jawari/step_coefficients.h"
 #include "kernels.h"
 #include "response.h"
+#include "short_frame.h"
 
 namespace jawari {
 namespace {
@@ -106,6 +107,7 @@ void set_skipping(StringModel& model) {
     set_groups(model);
     set_pushes(model);
     set_responses(model);
+    set_short_frames(model);
 }
 
 }  // namespace jawari

@@ -11,6 +11,7 @@
 #include "kernels.h"
 #include "metering.h"
 #include "near_frame.h"
+#include "short_frame.h"
 #include "skipping_kernels.h"
 
 namespace jawari {
@@ -61,6 +62,25 @@ void pass_freely(const StringModel& model, StringState& state) {
     } else {
         step_through(model, state);
     }
+}
+
+/// The frame with all contacts, which is cheap where frames are short. Returns false if the state has become
+/// non-finite.
+bool pass_short(const StringModel& model, StringState& state) {
+    const bool finite = solve_short_frame(model, state);
+    adopt_flight(state);
+    state.certificate.age += 1;
+    return finite;
+}
+
+/// Whether frames with contact are solved as short ones.
+bool goes_short(const StringModel& model, const StringState& state) {
+    return state.skipping.near && has_short_frames(model);
+}
+
+/// What a short frame before the coming one knows of the gaps.
+void take_up_gaps(const StringModel& model, StringState& state) {
+    if (state.short_frame.gaps_at == state.frame) note_short_frame(model, state);
 }
 
 /// The frame with contacts that may close. What was flown stays valid if none did.
@@ -117,14 +137,27 @@ bool advance_awake(const StringModel& model, StringState& state) {
         return is_finite(state);
     }
     wake_excited_modes(state);
+    const bool excited = is_excited(state);
+    const bool plan_failed = !excited && state.skipping.flight;
+    if (goes_short(model, state) && (state.certificate.struck || plan_failed)) {
+        const bool finite = pass_short(model, state);
+        meter_highest(model, state);
+        return finite;
+    }
+    take_up_gaps(model, state);
     if (needs_refresh(state)) refresh_bounds(model, state);
     if (state.asleep) return true;
     if (!fly(model, state)) return false;
-    const bool excited = is_excited(state);
     if (choose_near_contacts(model, state)) {
-        pass_near(model, state);
+        bool finite = true;
+        if (goes_short(model, state)) {
+            finite = pass_short(model, state);
+        } else {
+            pass_near(model, state);
+            finite = is_finite(state);
+        }
         meter_highest(model, state);
-        return is_finite(state);
+        return finite;
     }
     pass_freely(model, state);
     advance_bounds(model, state);
@@ -144,6 +177,8 @@ std::size_t frames_to_fly(const StringModel& model, StringState& state) JAWARI_R
     if (state.asleep || is_uniform(model, state) || is_excited(state) || !state.skipping.flight) return 0;
     CertificateState& bounds = state.certificate;
     if (bounds.free_frames == 0) {
+        if (bounds.struck && goes_short(model, state)) return 0;
+        take_up_gaps(model, state);
         if (needs_refresh(state)) refresh_bounds(model, state);
         if (state.asleep || bounds.direct) return 0;
         plan_free_frames(model, state);
@@ -177,10 +212,16 @@ void fly_ahead(const StringModel& model, StringState& state, std::span<const Rea
 void advance_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
     if (sleeps_on(state)) {
         pass_asleep(model, state, 1);
-        return;
-    }
-    if (frames_to_fly(model, state) > 0) {
+    } else if (frames_to_fly(model, state) > 0) {
         fly_ahead(model, state, {}, ReadAt::Start, 0, 1);
+    } else {
+        look_at_frame(model, state);
+    }
+}
+
+void look_at_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    if (sleeps_on(state)) {  // just fallen asleep
+        pass_asleep(model, state, 1);
         return;
     }
     if (state.certificate.free_frames > 0) forget_bounds(state);  // an excitation ends what was planned

@@ -32,4 +32,7 @@ std::size_t frames_to_fly(const StringModel& model, StringState& state) JAWARI_R
 void fly_ahead(const StringModel& model, StringState& state, std::span<const Reading> readings, ReadAt when,
                std::size_t first, std::size_t frames) JAWARI_REALTIME;
 
+/// Crosses one frame that cannot be flown: frames_to_fly() has just returned 0.
+void look_at_frame(const StringModel& model, StringState& state) JAWARI_REALTIME;
+
 }  // namespace jawari

@@ -95,7 +95,7 @@ void advance_frames(const StringModel& model, StringState& state, std::span<cons
             continue;
         }
         if (when == ReadAt::Start) read_all(state, readings, n);
-        advance_frame(model, state);
+        look_at_frame(model, state);
         if (when == ReadAt::End) read_all(state, readings, n);
         ++n;
     }

@@ -7,6 +7,7 @@
 #include "contact.h"
 #include "jawari/energy.h"
 #include "near_kernels.h"
+#include "short_frame.h"
 
 namespace jawari {
 namespace {
@@ -81,17 +82,42 @@ NearState make_near_state(const StringSizes& sizes) {
     return near;
 }
 
+ShortFrameState make_short_frame_state(const StringSizes& sizes) {
+    ShortFrameState frame;
+    const std::size_t contacts = sizes.short_contacts;
+    if (contacts == 0) return frame;
+    frame.velocities.assign(sizes.short_steps * sizes.stride, 0.0);
+    frame.rates.assign(sizes.short_steps * contacts, 0.0);
+    frame.impulses.assign(sizes.short_steps * contacts, 0.0);
+    frame.struck.assign(contacts, 0);
+    frame.table.values.assign(contacts * contacts, 0.0);
+    for (auto* array : {&frame.table.sign, &frame.table.scale, &frame.table.solution})
+        array->assign(contacts, 0.0);
+    for (auto* list : {&frame.table.active, &frame.table.kept}) list->assign(contacts, 0);
+    return frame;
+}
+
 }  // namespace
 
 StringSizes sizes_of(const StringModel& model) {
     const std::size_t groups = std::max<std::size_t>(model.certificate.group_begin.size(), 1) - 1;
     const std::size_t response_stride = model.response.empty() ? 0 : model.response_stride;
-    return {model.stride, model.contact_count, groups, response_stride};
+    const bool is_short = has_short_frames(model);
+    return {model.stride,
+            model.contact_count,
+            groups,
+            response_stride,
+            is_short ? model.contact_stride : 0,
+            is_short ? model.steps_per_frame : 0};
 }
 
 StringSizes larger(const StringSizes& a, const StringSizes& b) {
-    return {std::max(a.stride, b.stride), std::max(a.contacts, b.contacts), std::max(a.groups, b.groups),
-            std::max(a.response_stride, b.response_stride)};
+    return {std::max(a.stride, b.stride),
+            std::max(a.contacts, b.contacts),
+            std::max(a.groups, b.groups),
+            std::max(a.response_stride, b.response_stride),
+            std::max(a.short_contacts, b.short_contacts),
+            std::max(a.short_steps, b.short_steps)};
 }
 
 StringState allocate_string_state(const StringSizes& sizes) {
@@ -105,6 +131,7 @@ StringState allocate_string_state(const StringSizes& sizes) {
     state.lcp = make_lcp_workspace(sizes.contacts);
     state.certificate = make_certificate_state(sizes);
     state.near_frame = make_near_state(sizes);
+    state.short_frame = make_short_frame_state(sizes);
     return state;
 }
 
@@ -164,6 +191,7 @@ void put_to_rest(const StringModel& model, StringState& state) noexcept {
 
 void notice_change(const StringModel& model, StringState& state) noexcept {
     state.lcp.factored = nullptr;
+    state.short_frame.table.of = nullptr;
     state.active_modes = model.stride;
     state.asleep = false;
     choose_all_contacts(model, state);

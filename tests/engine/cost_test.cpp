@@ -8,8 +8,10 @@
 namespace jawari {
 namespace {
 
-StringModel string_with(std::size_t modes, std::size_t contacts, double contact_rate_hz) {
+StringModel string_with(std::size_t modes, std::size_t contacts, double contact_rate_hz,
+                        ImpactLaw law = ImpactLaw::Signorini) {
     SceneDescription scene;
+    scene.law = law;
     scene.contact_rate_hz = contact_rate_hz;
     scene.strings.push_back(test::bass_string(modes));
     scene.strings[0].contacts.resize(contacts);
@@ -22,16 +24,25 @@ TEST(FrameCost, AFreeStringCostsItsFlight) {
     EXPECT_EQ(cost.permanent_contact, cost.flight);
 }
 
+TEST(FrameCost, OneContactOfAShortFrameCountedByHand) {
+    // 16 modes, one contact padded to eight, five steps: three for the motion and eight for the rates; three
+    // and one for the impulse, two to add it up. Then ten later rates and five gaps, twice where corrected,
+    // and five solves of eight products, twice, and eight offsets.
+    const double modes = 16 * (5 * (3 + 8) + 5 * (3 + 1) + 2);
+    const double contact = 8 * (10 + 2 * 5) + 5 * 8 * (2 + 1);
+    EXPECT_EQ(frame_cost(string_with(16, 1, 48000 * 5)).permanent_contact, modes + contact);
+}
+
 TEST(FrameCost, OneContactCountedByHand) {
-    // 16 modes, one contact, five steps: bounds 17, three sums over them for the one group, gaps at both
-    // ends, flight 4; gap and rate at the start; five steps of three for the motion and one for the rate;
-    // five of three and one for the impulse, four to add it up. Then 15 responses and five gaps, and five
-    // solves of two products and one residual.
+    // The law keeps frames from being short. 16 modes, one contact, five steps: bounds 17, three sums over
+    // them for the one group, gaps at both ends, flight 4; gap and rate at the start; five steps of three for
+    // the motion and one for the rate; five of three and one for the impulse, four to add it up. Then 15
+    // responses and five gaps, and five solves of two products and one residual.
     const double looking = 16 * (17 + 3 + 2 + 4);
     const double rates = 16 * (2 + 5 * 4);
     const double impulses = 16 * (5 * 4 + 4);
     const double contact = 15 + 5 + 5 * (2 + 1);
-    EXPECT_EQ(frame_cost(string_with(16, 1, 48000 * 5)).permanent_contact,
+    EXPECT_EQ(frame_cost(string_with(16, 1, 48000 * 5, ImpactLaw::PaoliSchatzman)).permanent_contact,
               looking + rates + impulses + contact);
 }
 

@@ -68,6 +68,8 @@ struct StringModel {
     /// The same of short frames step by step: row [n][struck] over contacts, contact_stride apart; else
     /// empty.
     AlignedVector<double> step_response;
+    /// S^T where frames are short (short_frame.h), stride x contact_stride; else empty.
+    SharedArray<double> contact_columns;
 
     // -- energy (energy.h): H = sum kinetic v^2 + potential (q - h v/2)^2, or + potential q^2 for the theta
     // scheme

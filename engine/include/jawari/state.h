@@ -154,6 +154,31 @@ struct NearState {
     Counters counters;
 };
 
+/// The Delassus operator with some contacts active, the others' gaps open: what sweep() of
+/// contact_kernels.cpp makes of it.
+struct PivotTable {
+    const double* of = nullptr;         ///< the operator, or null if the table is not made
+    AlignedVector<double> values;       ///< contacts x contact_stride
+    AlignedVector<double> sign;         ///< 1: active, -1: not; over contacts
+    AlignedVector<double> scale;        ///< makes gaps of the solution: A_cc of active contacts, else 1
+    AlignedVector<double> solution;     ///< scratch: impulses of active contacts, gaps above target of others
+    std::vector<std::uint32_t> active;  ///< `active_count` are valid
+    std::vector<std::uint32_t> kept;    ///< scratch
+    std::size_t active_count = 0;
+    std::size_t pivots = 0;  ///< since the table was made
+};
+
+/// Frames of few steps over few contacts, short_frame.h.
+struct ShortFrameState {
+    AlignedVector<double> velocities;   ///< scratch: v of free flight at each step, steps x stride
+    AlignedVector<double> rates;        ///< scratch: S v at each step, steps x contact_stride
+    AlignedVector<double> impulses;     ///< lambda at each step, steps x contact_stride
+    std::vector<std::uint32_t> struck;  ///< contacts with impulses in the frame; `struck_count` are valid
+    std::size_t struck_count = 0;
+    std::uint64_t gaps_at = 0;  ///< frame at whose start contact.gap and gap_before hold for all contacts
+    PivotTable table;
+};
+
 /// Forces of the player: sums over points of F phi_k(x), so that any number of them is two rows over modes.
 /// The force at the coming step is held + elapsed ramp. Set by add_force(), excitation.h.
 struct ExcitationState {
@@ -176,6 +201,7 @@ struct StringState {
     bool asleep = false;
     CertificateState certificate;
     NearState near_frame;
+    ShortFrameState short_frame;
     Skipping skipping;
     ExcitationState excitation;
     ContactState contact;
@@ -196,6 +222,8 @@ struct StringSizes {
     std::size_t contacts = 0;
     std::size_t groups = 0;           ///< of contacts, in the certificate
     std::size_t response_stride = 0;  ///< 0: without a table of responses
+    std::size_t short_contacts = 0;   ///< padded contacts of models with short frames
+    std::size_t short_steps = 0;      ///< steps of their frames
 };
 
 StringSizes sizes_of(const StringModel& model);
