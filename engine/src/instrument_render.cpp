@@ -93,4 +93,12 @@ void render_instrument(const InstrumentModel& model, InstrumentState& state,
                   [&](std::size_t n, StereoSample sample) { output[n] = (sample.left + sample.right) / 2; });
 }
 
+double string_energy(const InstrumentModel& model, InstrumentState& state, std::size_t s) JAWARI_REALTIME {
+    double sum = 0;
+    for (Voice& voice : state.strings[s].voices) {
+        if (voice.phase != VoicePhase::Idle) sum += voice_energy(model.strings[s], voice);
+    }
+    return sum;
+}
+
 }  // namespace jawari
