@@ -8,6 +8,7 @@
 #include "common/command.h"
 #include "common/interrupt.h"
 #include "info/info_command.h"
+#include "latency/latency_command.h"
 #include "render/render_command.h"
 #include "simulate/simulate_command.h"
 
@@ -43,6 +44,7 @@ MaybeError run(int argc, char** argv, int& help_exit_code) {
     add_render_command(app, command);
     add_presets_command(app, command);
     add_info_command(app, command);
+    add_bench_latency_command(app, command);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {

@@ -79,8 +79,8 @@ if $full; then
     # Oracles, soaks and pitches check numbers, which the release run has done; here only memory and threads are at stake.
     stage "build (asan-ubsan)" build asan-ubsan jawari engine_tests host_tests rivals_tests jawari_fuzzers &&
         tests asan-ubsan -LE 'peers|presets|examples|live' -E RenderPitch && stage "fuzzing" fuzz
-    # Threads exist in the program alone: the tests that run it.
-    stage "build (tsan)" build tsan jawari host_tests && tests tsan -R Program
+    # Threads exist in the program, and in live playing: the tests of both.
+    stage "build (tsan)" build tsan jawari host_tests && tests tsan -R 'Program|Threads'
 fi
 
 printf '\n== Summary (%d min %d s)\n' $((SECONDS / 60)) $((SECONDS % 60))

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "common/denormals.h"
+
 namespace jawari::host {
 
 namespace {
@@ -57,6 +59,7 @@ Ensemble make_ensemble(const Score& score, const std::vector<SharedInstrument>& 
 }
 
 void render_block(Ensemble& ensemble, std::uint64_t begin, std::size_t frames) {
+    const NoDenormals guard;
     size_block(ensemble, frames);
     std::size_t stem = 0;
     for (EnsemblePart& part : ensemble.parts) {

@@ -69,4 +69,7 @@ void render_instrument(const InstrumentModel& model, InstrumentState& state,
                        std::span<const InstrumentEvent> events, double* output,
                        std::size_t frames) JAWARI_REALTIME;
 
+/// Energy of the motions of string `s` beyond that of their rest [J]. Uses the state's scratch space.
+double string_energy(const InstrumentModel& model, InstrumentState& state, std::size_t s) JAWARI_REALTIME;
+
 }  // namespace jawari
