@@ -22,6 +22,8 @@ void fill(char (&field)[size], const std::string& text) {
     std::memcpy(field, text.data(), std::min(size, text.size()));
 }
 
+}  // namespace
+
 void set_tags(SNDFILE* sound, const SoundTags& tags) {
     if (tags.title.empty() && tags.comment.empty()) return;
     sf_set_string(sound, SF_STR_TITLE, tags.title.c_str());
@@ -33,8 +35,6 @@ void set_tags(SNDFILE* sound, const SoundTags& tags) {
     broadcast.version = 1;
     sf_command(sound, SFC_SET_BROADCAST_INFO, &broadcast, sizeof broadcast);
 }
-
-}  // namespace
 
 void SoundFile::Close::operator()(sf_private_tag* sound) const {
     sf_close(sound);

@@ -27,6 +27,9 @@ struct SoundTags {
     std::string comment;
 };
 
+/// For a file that has been opened for writing and has no samples yet.
+void set_tags(sf_private_tag* sound, const SoundTags& tags);
+
 class SoundFile {
   public:
     /// `most_frames` decides between WAV and, beyond 4 GB, RF64. Empty tags are left out.

@@ -94,6 +94,7 @@ void Performer::survey_string(LiveInstrument& instrument) JAWARI_REALTIME {
 
 void Performer::measure(std::size_t frames, std::int64_t started_ns) JAWARI_REALTIME {
     LiveMeters& meters = links_.meters;
+    if (frames == 0) return;
     const double available_s = static_cast<double>(frames) / settings_.rate_hz;
     const double load = 1e-9 * static_cast<double>(settings_.clock() - started_ns) / available_s;
     mean_load_ += std::min(1.0, available_s / mean_load_s) * (load - mean_load_);
