@@ -59,7 +59,7 @@ void AudioLink::describe() {
     if (facts_.rate_hz != wish_.rate_hz)
         report_("notice: audio: the device runs at " + std::to_string(facts_.rate_hz) + " Hz, not at " +
                 std::to_string(wish_.rate_hz) + "; so does the instrument");
-    if (facts_.frames != wish_.frames)
+    if (wish_.frames_matter && facts_.frames != wish_.frames)
         report_("notice: audio: the device takes blocks of " + std::to_string(facts_.frames) +
                 " frames, not of " + std::to_string(wish_.frames));
 }

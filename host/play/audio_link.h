@@ -17,6 +17,7 @@ struct AudioWish {
     std::string device;           ///< empty: the default one
     unsigned int rate_hz = 48000;
     unsigned int frames = 128;
+    bool frames_matter = false;  ///< they were asked for, so that others are worth a notice
 };
 
 class AudioLink {

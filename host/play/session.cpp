@@ -28,7 +28,8 @@ double now_s() {
 
 AudioWish audio_wish(const PlayOptions& options) {
     return {options.audio.value_or("auto"), options.audio_device.value_or(""),
-            options.rate_hz.value_or(play_defaults::rate_hz), options.frames.value_or(play_defaults::frames)};
+            options.rate_hz.value_or(play_defaults::rate_hz), options.frames.value_or(play_defaults::frames),
+            options.frames.has_value()};
 }
 
 void render_block(void* player, const AudioBlock& block) {
@@ -84,6 +85,10 @@ MaybeError Session::open() {
     if (auto error = audio_.open()) return error;
     if (auto error = make_performance()) return error;
     if (auto error = connect_midi()) return error;
+    if (!options_.record.empty() || !options_.record_midi.empty()) {
+        if (auto error = start_recording(options_.record, options_.record_midi, options_.overwrite))
+            return error;
+    }
     if (options_.lock_memory.value_or(false)) lock_memory(say_);
     return audio_.start(&render_block, &performance_->player());
 }
@@ -126,6 +131,7 @@ MaybeError Session::tick() {
     if (now - watched_s_ >= watch_period_s) {
         watched_s_ = now;
         sample_statistics();
+        watch_recording();
         if (auto error = watch_audio(now)) return error;
     }
     if (now - polled_s_ >= poll_period_s) {
@@ -183,6 +189,7 @@ MaybeError Session::recover() {
     if (!audio_.reopen()) return std::nullopt;
     if (audio_.facts().rate_hz != performance_->rate_hz()) {
         midi_.reset();
+        if (recorder_) tell(stop_recording());
         options_.preset = options_.preset.value_or(play_defaults::preset) == play_defaults::preset
                               ? options_.preset
                               : performance_->preset();
@@ -204,17 +211,32 @@ StatusFacts Session::status() {
     facts.preset = performance_->preset();
     facts.worst_load = worst_load_;
     facts.audio_runs = audio_.is_open();
+    if (recorder_)
+        facts.recorded_s = static_cast<double>(recorder_->status().frames) / performance_->rate_hz();
     return facts;
 }
 
+void Session::tell(const Outcome<std::string>& line) {
+    say_(line ? line.value() : "warning: recording: " + line.error().message);
+}
+
+/// The recording ends before the fade: it is what was played, and its MIDI reproduces it.
 MaybeError Session::close() {
+    MaybeError failure;
+    if (recorder_) {
+        const auto line = stop_recording();
+        if (line)
+            say_(line.value());
+        else
+            failure = line.error();
+    }
     if (performance_ && audio_.is_open()) {
         (void)performance_->panic();
         std::this_thread::sleep_for(std::chrono::duration<double>(fade_out_s));
     }
     audio_.close();
     midi_.reset();
-    return std::nullopt;
+    return failure;
 }
 
 }  // namespace jawari::host

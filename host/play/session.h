@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "live/recorder.h"
 #include "midi_in/midi_inputs.h"
 #include "play/audio_link.h"
 #include "play/options.h"
@@ -42,7 +43,7 @@ class Session {
     [[nodiscard]] bool wants_to_end() const { return quit_; }
     [[nodiscard]] bool has_notes() const { return performance_ && performance_->has_notes(); }
 
-    /// Fades the sound out, ends devices and recordings.
+    /// Ends recordings, fades the sound out, ends devices. An error if a recording is not whole.
     MaybeError close();
 
     /// What the status line says now.
@@ -57,6 +58,11 @@ class Session {
     void follow_programs();
     void sample_statistics();
 
+    void watch_recording();
+    void tell(const Outcome<std::string>& line);
+    MaybeError start_recording(const std::string& sound, const std::string& midi, bool overwrite);
+    Outcome<std::string> stop_recording();
+
     Outcome<VerbReply> set(const VerbCall& call);
     Outcome<VerbReply> get(const VerbCall& call) const;
     Outcome<VerbReply> note(const VerbCall& call);
@@ -67,6 +73,8 @@ class Session {
     Say say_;
     AudioLink audio_;
     std::unique_ptr<Performance> performance_;
+    std::unique_ptr<LiveRecorder> recorder_;
+    RecordingSettings recorded_;  ///< of the recorder, or of the last one
     std::unique_ptr<MidiInputs> midi_;
     LiveStatistics latest_;
     double peak_left_ = 0, peak_right_ = 0;  ///< since status() was asked before
