@@ -90,7 +90,16 @@ MaybeError Session::open() {
             return error;
     }
     if (options_.lock_memory.value_or(false)) lock_memory(say_);
-    return audio_.start(&render_block, &performance_->player());
+    if (auto error = audio_.start(&render_block, &performance_->player())) return error;
+    await_first_block();
+    return std::nullopt;
+}
+
+/// So that the first command finds what the options set. A driver may be slow to begin; check() tells of it.
+void Session::await_first_block() const {
+    constexpr int most_waits = 50;
+    for (int i = 0; i < most_waits && audio_.counters()->callbacks.load() == 0; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
 }
 
 MaybeError Session::make_performance() {
@@ -176,12 +185,18 @@ MaybeError Session::watch_audio(double now) {
             "audio: " + audio_.facts().system + ": " + quoted(audio_.facts().device) + " is lost";
         if (!options_.retry.value_or(true)) return Error{ExitCode::Device, lost};
         say_("warning: " + lost + "; looking for it every second");
+        // The JACK library does not find a new server while a client of the old one is left.
+        if (shares_server()) midi_->stop();
         retried_s_ = now;
         return std::nullopt;
     }
     if (now - retried_s_ < retry_period_s) return std::nullopt;
     retried_s_ = now;
     return recover();
+}
+
+bool Session::shares_server() const {
+    return audio_.facts().system == "jack" && midi_->system() == "jack";
 }
 
 /// The player is kept, and with it what sounds, unless the device has come back with another rate.
@@ -195,7 +210,7 @@ MaybeError Session::recover() {
                               : performance_->preset();
         if (auto error = make_performance()) return error;
         if (auto error = connect_midi()) return error;
-    } else if (midi_->system() == audio_.facts().system) {
+    } else if (shares_server()) {
         midi_->restart();
     }
     if (const auto error = audio_.start(&render_block, &performance_->player()))

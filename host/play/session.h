@@ -52,8 +52,10 @@ class Session {
   private:
     MaybeError make_performance();
     MaybeError connect_midi();
+    void await_first_block() const;
     MaybeError watch_audio(double now_s);
     MaybeError recover();
+    [[nodiscard]] bool shares_server() const;
     void tell_notices();
     void follow_programs();
     void sample_statistics();
