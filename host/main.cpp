@@ -9,6 +9,9 @@
 #include "common/interrupt.h"
 #include "info/info_command.h"
 #include "latency/latency_command.h"
+#ifdef JAWARI_LIVE
+#include "play/play_command.h"
+#endif
 #include "render/render_command.h"
 #include "simulate/simulate_command.h"
 
@@ -20,11 +23,13 @@ constexpr const char* footer =
     "  jawari simulate lab/bass --plot bass.svg\n"
     "  jawari simulate my-scene.json --out probes.csv --stats -\n"
     "  jawari render song.mid --preset bass-fretted -o song.wav\n"
+    "  jawari play --preset bass-fretted\n"
     "  jawari presets\n"
     "  jawari info bass-fretted\n"
     "\n"
     "Exit codes: 0 done; 2 wrong command line; 3 invalid input file; 4 a file cannot be read or written;\n"
-    "5 internal error; 130 interrupted; 143 terminated. Every failure prints one line on standard error.";
+    "5 internal error; 6 audio or MIDI device; 130 interrupted; 143 terminated. Every failure prints one "
+    "line on standard error.";
 
 MaybeError usage(const CLI::App& app, const CLI::ParseError& problem) {
     std::string message = problem.what();
@@ -45,6 +50,10 @@ MaybeError run(int argc, char** argv, int& help_exit_code) {
     add_presets_command(app, command);
     add_info_command(app, command);
     add_bench_latency_command(app, command);
+#ifdef JAWARI_LIVE
+    add_play_command(app, command);
+    add_devices_command(app, command);
+#endif
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {

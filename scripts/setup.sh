@@ -23,11 +23,17 @@ packages=(
     libhdf5-dev       # .h5 recordings
     gnuplot-nox       # --plot
     fonts-dejavu-core # its labels
+    librtaudio-dev    # play: audio devices
+    librtmidi-dev     # play: MIDI devices
+    libjack-jackd2-dev # the JACK that the two are used with here (they would take the older one)
+    libedit-dev       # play: shell
+    liblo-dev         # play: Open Sound Control
     # -- tests and benchmarks
     libgtest-dev      # GoogleTest
     libbenchmark-dev  # Google Benchmark
     libboost-dev      # Boost.Multiprecision: 100-digit references
     midicsv           # independent reading of MIDI files
+    jackd2            # live tests: a sound server without hardware
     python3           # test scripts
     python3-numpy     # reference simulations, pitch measurement
     python3-h5py      # independent reading of .h5 recordings
@@ -83,8 +89,9 @@ if [[ $(id -u) != 0 ]]; then
     as_root=(sudo)
 fi
 echo "setup: installing ${missing[*]}"
+# All are named, not the missing ones alone: else apt may remove one of them to make room for another.
 apt_get() {
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 "$@" < /dev/null
 }
 apt_get update -qq
-apt_get install -y -qq --no-install-recommends "${missing[@]}"
+apt_get install -y -qq --no-install-recommends "${packages[@]}"

@@ -9,6 +9,7 @@ enum class ExitCode : int {
     InvalidInput = 3,  ///< a scene, preset or MIDI file says something that is not allowed
     File = 4,          ///< a file cannot be read or written
     Internal = 5,      ///< a defect of the program, or out of memory
+    Device = 6,        ///< an audio or MIDI device or its driver cannot be used, or was lost
     Interrupted = 130,
     Terminated = 143
 };

@@ -114,6 +114,14 @@ std::size_t ObjectReader::whole_number(std::string_view key, std::size_t lowest,
     return static_cast<std::size_t>(*number);
 }
 
+bool ObjectReader::flag(std::string_view key) {
+    const Value* value = require(key, "true or false");
+    if (value == nullptr) return false;
+    if (const auto* flag = std::get_if<bool>(&value->content)) return *flag;
+    problems_.add(path_of(key), describe(*value), "true or false");
+    return false;
+}
+
 std::string ObjectReader::text(std::string_view key) {
     const Value* value = require(key, "a string");
     if (value == nullptr) return {};

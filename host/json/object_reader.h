@@ -64,6 +64,8 @@ class ObjectReader {
     double number_or(std::string_view key, double fallback, Range range);
     /// A number without fraction.
     std::size_t whole_number(std::string_view key, std::size_t lowest, std::size_t highest);
+    /// true or false.
+    bool flag(std::string_view key);
     std::string text(std::string_view key);
     std::string text_or(std::string_view key, std::string fallback);
     std::vector<double> numbers(std::string_view key, std::size_t longest);

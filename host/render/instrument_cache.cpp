@@ -7,8 +7,6 @@
 
 namespace jawari::host {
 
-namespace {
-
 Outcome<SharedInstrument> load_and_compile(const std::string& name, const InstrumentSettings& settings) {
     auto preset = load_with(name, settings);
     if (!preset) return preset.error();
@@ -21,8 +19,6 @@ Outcome<SharedInstrument> load_and_compile(const std::string& name, const Instru
     loaded->cpu_compile_s = thread_cpu_s() - started;
     return SharedInstrument(std::move(loaded));
 }
-
-}  // namespace
 
 Outcome<Preset> load_with(const std::string& preset, const InstrumentSettings& settings) {
     auto loaded = load_preset(preset);

@@ -49,6 +49,9 @@ class InstrumentCache {
     std::map<std::string, Entry> entries_;
 };
 
+/// Loads and compiles without a cache: a preset's file is read anew.
+Outcome<SharedInstrument> load_and_compile(const std::string& name, const InstrumentSettings& settings);
+
 /// The preset with quality and tuning, before compile_instrument().
 Outcome<Preset> load_with(const std::string& preset, const InstrumentSettings& settings);
 

@@ -1,7 +1,6 @@
 #include "render/render_command.h"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <string>
@@ -43,16 +42,6 @@ std::string footer() {
            "5 internal error; 130 interrupted; 143 terminated.";
 }
 
-CLI::Validator whole_between(double lowest, double highest, const std::string& what) {
-    const auto check = [=](const std::string& text) {
-        const auto value = parse_number(text);
-        const bool whole = value && *value == std::floor(*value);
-        if (whole && *value >= lowest && *value <= highest) return std::string();
-        return refusal(text, "a whole number" + what + ", " + shortest(lowest) + " to " + shortest(highest));
-    };
-    return {check, ""};
-}
-
 CLI::Validator tail() {
     const auto check = [](const std::string& text) {
         const auto value = parse_number(text);
@@ -62,45 +51,11 @@ CLI::Validator tail() {
     return {check, ""};
 }
 
-CLI::Validator name() {
-    return {[](const std::string& text) { return text.empty() ? refusal(text, "a name") : std::string(); },
-            ""};
-}
-
 CLI::Validator picture() {
     const auto check = [](const std::string& text) {
         const std::string lower = lower_case(text);
         if (lower.ends_with(".svg") || lower.ends_with(".png")) return std::string();
         return refusal(text, "a name that ends in .svg or .png");
-    };
-    return {check, ""};
-}
-
-const ParameterDeclaration* find_parameter(const std::string& key) {
-    for (const ParameterDeclaration& each : parameter_table())
-        if (each.key == key) return &each;
-    return nullptr;
-}
-
-std::string range_text(const ParameterDeclaration& parameter) {
-    const std::string unit = parameter.unit == "1" ? "" : " " + std::string(parameter.unit);
-    return std::string(parameter.key) + "=" + shortest(parameter.low) + " to " + shortest(parameter.high) +
-           unit;
-}
-
-/// `palm_mute=0.3`
-CLI::Validator parameter_setting() {
-    const auto check = [](const std::string& text) {
-        const std::size_t equals = text.find('=');
-        const ParameterDeclaration* parameter = find_parameter(text.substr(0, equals));
-        if (parameter == nullptr) {
-            std::vector<std::string> keys;
-            for (const ParameterDeclaration& each : parameter_table()) keys.emplace_back(each.key);
-            return refusal(text, "PARAMETER=VALUE, one of " + join(keys));
-        }
-        const auto value = equals == std::string::npos ? std::nullopt : parse_number(text.substr(equals + 1));
-        if (value && *value >= parameter->low && *value <= parameter->high) return std::string();
-        return refusal(text, range_text(*parameter));
     };
     return {check, ""};
 }
@@ -140,29 +95,17 @@ void add_sound_options(CLI::App& app, RenderOptions& options) {
 }
 
 void add_music_options(CLI::App& app, RenderOptions& options) {
-    app.add_option_function<std::vector<std::string>>(
-           "--set",
-           [&options](const std::vector<std::string>& settings) {
-               for (const std::string& text : settings) {
-                   const std::size_t equals = text.find('=');
-                   options.parameters.emplace_back(find_parameter(text.substr(0, equals))->id,
-                                                   *parse_number(text.substr(equals + 1)));
-               }
-           },
-           "A parameter at the start, in its unit; may be repeated; jawari info lists them")
-        ->type_name("PARAMETER=VALUE")
-        ->allow_extra_args(false)
-        ->check(parameter_setting());
+    add_parameter_settings(app, options.parameters);
     app.add_option("--tuning", options.tuning, "Scala scale: pitches of all keys")
         ->type_name("FILE.scl")
-        ->check(name());
+        ->check(some_name());
     app.add_option("--keyboard-map", options.keyboard_map, "Scala keyboard map of the scale")
         ->type_name("FILE.kbm")
-        ->check(name());
+        ->check(some_name());
     app.add_flag("--move-frets", options.move_frets, "Frets move to where the tuning has its notes");
     app.add_option("--midi-map", options.midi_map, "Controllers of parameters (docs/midi.md)")
         ->type_name("FILE.json")
-        ->check(name());
+        ->check(some_name());
     app.add_option_function<std::string>(
            "--guitar-mode",
            [&options](const std::string& text) {
@@ -186,14 +129,14 @@ void add_output_options(CLI::App& app, RenderOptions& options) {
                    "WAV file; a folder for several MIDI files; - for standard output")
         ->required()
         ->type_name("FILE.wav")
-        ->check(name());
+        ->check(some_name());
     app.add_option("--stems", options.stems,
                    "The strings apart: a channel each in one WAV file, or with FOLDER/ a file each")
         ->type_name("FILE.wav|FOLDER/")
-        ->check(name());
+        ->check(some_name());
     app.add_option("--stats", options.stats, "Statistics as JSON; - for standard output")
         ->type_name("FILE.json")
-        ->check(name());
+        ->check(some_name());
     app.add_option("--plot", options.plot, "Waveform and spectrogram: FILE.svg or FILE.png")
         ->type_name("FILE")
         ->check(picture());
@@ -215,7 +158,7 @@ void add_render_command(CLI::App& app, Command& command) {
         ->type_name("MIDI...");
     render_app->add_option("--preset", options->preset, "Preset file or name; auto unless told")
         ->type_name("PRESET|auto")
-        ->check(name());
+        ->check(some_name());
     add_output_options(*render_app, *options);
     add_sound_options(*render_app, *options);
     add_music_options(*render_app, *options);

@@ -1,0 +1,12 @@
+// `jawari play`.
+#pragma once
+
+#include "common/error.h"
+#include "play/options.h"
+
+namespace jawari::host {
+
+/// Plays until it is told to end. SIGINT and SIGTERM are ordinary ends.
+MaybeError play(const PlayOptions& options);
+
+}  // namespace jawari::host
