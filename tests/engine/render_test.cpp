@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -56,6 +57,62 @@ TEST_P(BlockSize, DoesNotChangeABit) {
 INSTANTIATE_TEST_SUITE_P(Laws, BlockSize,
                          testing::Values(ImpactLaw::Newton, ImpactLaw::Passive, ImpactLaw::Signorini,
                                          ImpactLaw::PaoliSchatzman));
+
+/// A string of a fretted instrument at live quality that is pressed down, lies on its frets, rings, fades
+/// within a few hundred frames or rests.
+StringDescription live_string(std::size_t kind) {
+    StringDescription string = test::bass_string(110);
+    const std::array<double, 5> heights{-2.33e-3, 0.4e-3, -2.33e-3, -4e-3, -1e-3};
+    for (auto& fret : string.contacts) fret.height_m = std::max(fret.height_m, heights[kind]);
+    if (kind == 0) string.contacts.push_back({0.25, -2e-3, 0, Side::Above});
+    if (kind == 3) {
+        auto& modes = std::get<PhysicalModes>(string.modes);
+        modes.tension_N *= 16;  // high enough for such losses
+        modes.damping = DecayTimePoints{{{{100, 3e-3}, {1000, 3e-3}}}};
+        string.initial.shape = Pluck{0.5, 1e-3};
+    }
+    if (kind == 4) string.initial.shape = AtRest{};
+    return string;
+}
+
+SceneModel live_scene(const std::vector<std::size_t>& kinds) {
+    SceneDescription scene;
+    scene.contact_rate_hz = 192000;
+    for (const std::size_t kind : kinds) scene.strings.push_back(live_string(kind));
+    return compile(scene).value();
+}
+
+TEST(Render, BitsOfLiveStringsDependNeitherOnBlocksNorOnStringsThatSleep) {
+    const std::size_t frames = 3072;
+    const SceneModel all = live_scene({4, 0, 3, 1, 4, 2, 3});
+    SceneState reference = make_state(all);
+    const auto expected = rendered(all, reference, frames, 1);
+    std::size_t asleep = 0;
+    for (const StringState& string : reference.strings) asleep += string.asleep ? 1 : 0;
+    EXPECT_EQ(asleep, 4U);
+    EXPECT_GT(reference.strings[1].counters.near_frames, 3000U);
+    EXPECT_GT(reference.strings[5].counters.flown_frames, 1000U);
+    for (const std::size_t block : {17U, 64U, 1024U}) {
+        SceneState state = make_state(all);
+        EXPECT_EQ(rendered(all, state, frames, block), expected) << block;
+    }
+    const SceneModel awake = live_scene({0, 1, 2});  // without the sleepers
+    for (const std::size_t block : {17U, 64U, 1024U}) {
+        SceneState state = make_state(awake);
+        const auto alone = rendered(awake, state, frames, block);
+        EXPECT_EQ(alone[0], expected[1]) << block;
+        EXPECT_EQ(alone[1], expected[3]) << block;
+        EXPECT_EQ(alone[2], expected[5]) << block;
+    }
+}
+
+TEST(Render, AStringPutBackToItsStartRendersTheSameBits) {
+    const SceneModel model = live_scene({0, 1, 2});
+    SceneState state = make_state(model);
+    const auto expected = rendered(model, state, 500, 64);
+    for (std::size_t s = 0; s < 3; ++s) reset(model.strings[s], state.strings[s]);
+    EXPECT_EQ(rendered(model, state, 500, 64), expected);
+}
 
 TEST(Render, RowNIsTheTimeNOverTheRate) {
     // One undamped mode of 100 Hz: q = cos(omega t), exactly, at each output time, for any number of steps
