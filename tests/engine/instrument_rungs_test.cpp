@@ -97,6 +97,7 @@ TEST(InstrumentRungs, TheModesThatStayGoOnAsTheyWere) {
     InstrumentDescription instrument = small_instrument();
     instrument.strings = {instrument.strings[2]};
     instrument.obstacles.clear();
+    instrument.body.clear();
     instrument.contacts = false;
     for (ExciterDescription& exciter : instrument.exciters) {
         if (auto* finger = std::get_if<FingerDescription>(&exciter.body)) finger->damping_kg_per_s = 0;
