@@ -8,6 +8,7 @@
 #include "common/command.h"
 #include "common/interrupt.h"
 #include "info/info_command.h"
+#include "latency/latency_command.h"
 #ifdef JAWARI_LIVE
 #include "play/play_command.h"
 #endif
@@ -52,6 +53,7 @@ MaybeError run(int argc, char** argv, int& help_exit_code) {
     add_play_command(app, command);
     add_devices_command(app, command);
 #endif
+    add_bench_latency_command(app, command);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {

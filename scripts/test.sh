@@ -78,8 +78,8 @@ if $full; then
     stage "other instruction sets" scripts/check_neon.sh
     # Oracles and soaks check numbers, which the release run has done; here only memory and threads are at stake.
     stage "build (asan-ubsan)" build asan-ubsan jawari engine_tests host_tests rivals_tests && tests asan-ubsan -LE 'peers|presets|examples'
-    # Threads exist in the program alone: the tests that run it.
-    stage "build (tsan)" build tsan jawari host_tests && tests tsan -R Program
+    # Threads exist in the program, and in live playing: the tests of both.
+    stage "build (tsan)" build tsan jawari host_tests && tests tsan -R 'Program|Threads'
     stage "build (fuzz)" build fuzz && stage "fuzzing" fuzz
 fi
 

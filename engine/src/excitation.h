@@ -6,6 +6,7 @@
 
 #include "jawari/realtime.h"
 #include "jawari/state.h"
+#include "kernels.h"
 
 namespace jawari {
 
@@ -31,10 +32,10 @@ inline void add_force(StringState& state, const double* row, std::size_t modes, 
     ExcitationState& excitation = state.excitation;
     excitation.active = true;
     excitation.modes = std::max(excitation.modes, modes);
-    for (std::size_t k = 0; k < modes; ++k) excitation.held[k] += force_N * row[k];
+    kernels::add_scaled(modes, force_N, row, excitation.held.data());
     if (rate_N == 0) return;
     excitation.ramps = true;
-    for (std::size_t k = 0; k < modes; ++k) excitation.ramp[k] += rate_N * row[k];
+    kernels::add_scaled(modes, rate_N, row, excitation.ramp.data());
 }
 
 }  // namespace jawari

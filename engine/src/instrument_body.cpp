@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "instrument_kernels.h"
+
 namespace jawari {
 namespace {
 
@@ -72,22 +74,12 @@ StereoSample advance_body(const BodyModel& body, BodyState& state, double force_
     const double before = state.force_N;
     if (!state.ringing && force_N == 0 && before == 0) return {};
     state.force_N = force_N;
-    const double change = force_N - before;
-    StereoSample sample;
-    double largest = 0;
-    for (std::size_t i = 0; i < body.count; ++i) {
-        const double y = state.y[i];
-        const double v = state.v[i];
-        state.y[i] = body.yy[i] * y + body.yv[i] * v + body.y_held[i] * before + body.y_ramp[i] * change;
-        state.v[i] = body.vy[i] * y + body.vv[i] * v + body.v_held[i] * before + body.v_ramp[i] * change;
-        sample.left += body.gain_left[i] * state.v[i];
-        sample.right += body.gain_right[i] * state.v[i];
-        const double gain = std::max(std::abs(body.gain_left[i]), std::abs(body.gain_right[i]));
-        largest = std::max(largest, gain * (std::abs(state.v[i]) + std::abs(v)));
-    }
+    const kernels::BodyFrame frame = kernels::advance_body(padded(body.count), body, before, force_N - before,
+                                                           state.y.data(), state.v.data());
+    const StereoSample sample{frame.left, frame.right};
     state.ringing = true;
     const bool lost = !std::isfinite(sample.left + sample.right);
-    if (lost || (largest < still && force_N == 0)) {
+    if (lost || (frame.largest < still && force_N == 0)) {
         std::fill(state.y.begin(), state.y.end(), 0.0);
         std::fill(state.v.begin(), state.v.end(), 0.0);
         state.force_N = 0;

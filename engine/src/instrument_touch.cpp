@@ -6,6 +6,7 @@
 
 #include "excitation.h"
 #include "instrument_exciter.h"
+#include "instrument_kernels.h"
 #include "kernels.h"
 #include "small_system.h"
 
@@ -73,16 +74,8 @@ ActiveForces active_forces(const StringModel& model, const TouchState& touches) 
 /// middle <- q - h v/2, rise <- its change over the frame in free flight.
 void set_free_path(const StringModel& model, const StringState& string, TouchState& touches,
                    std::size_t modes) {
-    const double lag = model.step_s / 2;
-    const FlightModel& f = model.flight;
-    const double* q = string.displacement.data();
-    const double* v = string.velocity.data();
-    double* middle = touches.middle.data();
-    double* rise = touches.rise.data();
-    for (std::size_t k = 0; k < modes; ++k) {
-        middle[k] = q[k] - lag * v[k];
-        rise[k] = (f.qq[k] - lag * f.vq[k]) * q[k] + (f.qv[k] - lag * f.vv[k]) * v[k];
-    }
+    kernels::free_path(modes, model.step_s / 2, model.flight, string.displacement.data(),
+                       string.velocity.data(), touches.middle.data(), touches.rise.data());
 }
 
 /// G_ij = sum_k phi_i (q_held - h v_held/2) phi_j; rise is free to use.
@@ -93,8 +86,7 @@ void set_compliance_of_touches(const StringModel& model, TouchState& touches, co
         const std::size_t modes = modes_of(model, touches, i);
         const double* row = row_of(touches, i).data();
         double* moved = touches.rise.data();
-        for (std::size_t k = 0; k < modes; ++k)
-            moved[k] = row[k] * (model.flight.q_held[k] - lag * model.flight.v_held[k]);
+        kernels::moved_by_held(modes, lag, model.flight, row, moved);
         for (std::size_t b = 0; b <= a; ++b) {
             const std::size_t j = active.index[b];
             const double g =
@@ -265,8 +257,8 @@ void meter_touches(const StringModel& model, const StringState& string, TouchSta
     if (!string.excitation.active) return;
     const double lag = model.step_s / 2;
     double* path = touches.rise.data();
-    for (std::size_t k = 0; k < string.excitation.modes; ++k)
-        path[k] = string.displacement[k] - lag * string.velocity[k] - touches.middle[k];
+    kernels::path_since(string.excitation.modes, lag, string.displacement.data(), string.velocity.data(),
+                        touches.middle.data(), path);
     for (const Touch& touch : touches.touches) {
         if (touch.force_N == 0) continue;
         work.touches_J += touch.force_N * dot(touch.modes, touch.row.data(), path);
@@ -279,22 +271,9 @@ void meter_touches(const StringModel& model, const StringState& string, TouchSta
 void write_point_row(const StringModel& model, std::size_t modes, double x, double width_m,
                      double* row) JAWARI_REALTIME {
     const std::size_t count = std::min(modes, model.mode_count);
-    // sin(k a) and sin(k b) by rotation; b = 0 for a point.
-    const double scale = std::sqrt(2 / model.length_m);
-    const double a = std::numbers::pi * x / model.length_m;
-    const double b = std::numbers::pi * width_m / (2 * model.length_m);
-    const double cos_a = std::cos(a), sin_a = std::sin(a), cos_b = std::cos(b), sin_b = std::sin(b);
-    double ca = 1, sa = 0, cb = 1, sb = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-        const double next_sa = sa * cos_a + ca * sin_a;
-        ca = ca * cos_a - sa * sin_a;
-        sa = next_sa;
-        const double next_sb = sb * cos_b + cb * sin_b;
-        cb = cb * cos_b - sb * sin_b;
-        sb = next_sb;
-        const double z = static_cast<double>(k + 1) * b;
-        row[k] = scale * sa * (z > 0 ? sb / z : 1.0);
-    }
+    const double L = model.length_m;
+    kernels::point_row(
+        modes, {std::sqrt(2 / L), std::numbers::pi * x / L, std::numbers::pi * width_m / (2 * L)}, row);
     std::fill(row + count, row + modes, 0.0);
 }
 

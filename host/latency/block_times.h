@@ -25,7 +25,7 @@ struct BlockTimes {
     std::vector<float> raw;      ///< of every block of every pass
     std::vector<float> minimum;  ///< of each block, over the passes: rendering is deterministic, so what is
                                  ///< left out is the machine's (scheduler, interrupts, caches of others)
-    std::uint64_t notes = 0;  ///< excited in a pass
+    std::uint64_t notes = 0;     ///< excited in a pass
 };
 
 /// Ends early with the interruption's error on SIGINT or SIGTERM.

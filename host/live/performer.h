@@ -67,7 +67,8 @@ class Performer {
     void obey_commands() JAWARI_REALTIME;
     bool obey(const LiveCommand& command) JAWARI_REALTIME;
     bool panic() JAWARI_REALTIME;
-    bool take_stage(LiveInstrument* instrument) JAWARI_REALTIME;
+    void call_on_stage(LiveInstrument* instrument) JAWARI_REALTIME;
+    void take_stage() JAWARI_REALTIME;
     void fade(LiveInstrument& instrument, std::size_t frames) JAWARI_REALTIME;
     [[nodiscard]] double fade_frames() const JAWARI_REALTIME;
     void retire_silent() JAWARI_REALTIME;
@@ -102,7 +103,8 @@ class Performer {
 
     std::array<LiveInstrument*, most_sounding> stage_{};  // [0] plays, the others ring out, the oldest last
     std::size_t sounding_ = 0;
-    std::uint64_t clock_origin_ = 0;  // frame_ at frame 0 of the instruments' states
+    LiveInstrument* waiting_ = nullptr;  // for a place on the stage
+    std::uint64_t clock_origin_ = 0;     // frame_ at frame 0 of the instruments' states
 
     std::vector<InstrumentEvent> events_;  // of the block, in order; room is reserved
     std::vector<InstrumentEvent> chunk_;   // those of a part of the block, for one instrument

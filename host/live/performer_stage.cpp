@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include "live/performer.h"
 
@@ -23,10 +25,8 @@ bool is_silent(const InstrumentState& state) {
 }  // namespace
 
 void Performer::obey_commands() JAWARI_REALTIME {
-    while (links_.commands.read_available() > 0) {
-        if (!obey(links_.commands.front())) return;
-        links_.commands.pop();
-    }
+    while (links_.commands.read_available() > 0 && obey(links_.commands.front())) links_.commands.pop();
+    take_stage();
 }
 
 /// False if it has to wait.
@@ -47,7 +47,8 @@ bool Performer::obey(const LiveCommand& command) JAWARI_REALTIME {
         case LiveCommand::Kind::Panic:
             return panic();
         case LiveCommand::Kind::Publish:
-            return take_stage(command.instrument);
+            call_on_stage(command.instrument);
+            return true;
         case LiveCommand::Kind::StartCapture:
             if (capture_ != nullptr) end_capture();
             start_capture(command.capture);
@@ -75,19 +76,25 @@ bool Performer::panic() JAWARI_REALTIME {
 
 // ---------------------------------------------------------------------------------------------- instruments
 
-/// Waits while as many instruments sound as may; the oldest then fades.
-bool Performer::take_stage(LiveInstrument* instrument) JAWARI_REALTIME {
+/// Takes the stage at the next occasion. Another one that still waits for it will never be heard.
+void Performer::call_on_stage(LiveInstrument* instrument) JAWARI_REALTIME {
+    if (waiting_ != nullptr) links_.retired.push(waiting_);
+    waiting_ = instrument;
+}
+
+/// While as many instruments sound as may, the oldest fades first.
+void Performer::take_stage() JAWARI_REALTIME {
+    if (waiting_ == nullptr) return;
     if (sounding_ == most_sounding) {
         stage_[sounding_ - 1]->fading = true;
-        return false;
+        return;
     }
-    if (sounding_ > 0) instrument->state.channels = stage_[0]->state.channels;
-    instrument->state.frame = frame_ - clock_origin_;
+    if (sounding_ > 0) waiting_->state.channels = stage_[0]->state.channels;
+    waiting_->state.frame = frame_ - clock_origin_;
     std::move_backward(stage_.begin(), stage_.begin() + static_cast<std::ptrdiff_t>(sounding_),
                        stage_.begin() + static_cast<std::ptrdiff_t>(sounding_) + 1);
-    stage_[0] = instrument;
+    stage_[0] = std::exchange(waiting_, nullptr);
     sounding_ += 1;
-    return true;
 }
 
 void Performer::fade(LiveInstrument& instrument, std::size_t frames) JAWARI_REALTIME {
@@ -125,6 +132,7 @@ void Performer::retire_silent() JAWARI_REALTIME {
 void Performer::give_back_all() JAWARI_REALTIME {
     for (std::size_t i = 0; i < sounding_; ++i) links_.retired.push(stage_[i]);
     sounding_ = 0;
+    call_on_stage(nullptr);
     end_capture();
 }
 

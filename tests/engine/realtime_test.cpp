@@ -15,95 +15,19 @@
 #include "scenes.h"
 #include "small_instrument.h"
 
-// Sanitizers replace the allocator themselves and make system calls of their own.
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#include <malloc.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-#if defined(__linux__) && defined(__x86_64__)
-#include <linux/filter.h>
-#include <linux/seccomp.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
+#include "../realtime_traps.h"
 
-#include <csignal>
-#include <cstddef>
-#define JAWARI_TRAPS_SYSTEM_CALLS 1
-#endif
-
-namespace {
-
-thread_local bool allocation_forbidden = false;
-thread_local unsigned long allocations = 0;
-
-void note_allocation() {
-    if (allocation_forbidden) allocations += 1;
-}
-
-}  // namespace
-
-// The C++ operators, aligned or not, end here as well.
-extern "C" {
-void* __libc_malloc(std::size_t);                 // NOLINT(bugprone-reserved-identifier)
-void* __libc_calloc(std::size_t, std::size_t);    // NOLINT(bugprone-reserved-identifier)
-void* __libc_realloc(void*, std::size_t);         // NOLINT(bugprone-reserved-identifier)
-void* __libc_memalign(std::size_t, std::size_t);  // NOLINT(bugprone-reserved-identifier)
-void __libc_free(void*);                          // NOLINT(bugprone-reserved-identifier)
-
-void* malloc(std::size_t size) {
-    note_allocation();
-    return __libc_malloc(size);
-}
-void* calloc(std::size_t count, std::size_t size) {
-    note_allocation();
-    return __libc_calloc(count, size);
-}
-void* realloc(void* block, std::size_t size) {
-    note_allocation();
-    return __libc_realloc(block, size);
-}
-void* memalign(std::size_t alignment, std::size_t size) {
-    note_allocation();
-    return __libc_memalign(alignment, size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
-    note_allocation();
-    return __libc_memalign(alignment, size);
-}
-int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
-    note_allocation();
-    *block = __libc_memalign(alignment, size);
-    return *block == nullptr ? 12 : 0;  // ENOMEM
-}
-void free(void* block) {
-    if (block != nullptr) note_allocation();
-    __libc_free(block);
-}
-}
+#ifdef JAWARI_TRAPS
 
 namespace jawari {
 namespace {
 
-struct NoAllocation {
-    NoAllocation() {
-        allocations = 0;
-        allocation_forbidden = true;
-    }
-    ~NoAllocation() { allocation_forbidden = false; }
-    NoAllocation(const NoAllocation&) = delete;
-    NoAllocation& operator=(const NoAllocation&) = delete;
-};
-
-/// Keeps the compiler from leaving an allocation out.
-template <class T>
-T* used(T* pointer) {
-    asm volatile("" : "+r"(pointer) : : "memory");
-    return pointer;
-}
+using test::Trap;
+using test::used;
 
 TEST(Realtime, TheAllocationTrapFires) {
     const auto trapped = [](const std::function<void()>& act) {
-        const NoAllocation zone;
+        const Trap zone;
         act();
         return allocations;
     };
@@ -234,7 +158,7 @@ TEST(Realtime, PlayingAnInstrumentTakesNoMemory) {
     for (const auto& performance : instrument_performances()) {
         unsigned long hits = 0;
         {
-            const NoAllocation zone;
+            const Trap zone;
             performance->play();
             hits = allocations;
         }
@@ -248,7 +172,7 @@ TEST(Realtime, RenderingTakesNoMemory) {
     for (const auto& performance : performances()) {
         unsigned long hits = 0;
         {
-            const NoAllocation zone;
+            const Trap zone;
             performance->play();
             hits = allocations;
         }
@@ -261,26 +185,6 @@ TEST(Realtime, RenderingTakesNoMemory) {
 
 #ifdef JAWARI_TRAPS_SYSTEM_CALLS
 
-volatile std::sig_atomic_t system_calls = 0;
-
-/// In this process and from now on, every system call but leaving raises SIGSYS, which counts.
-bool trap_system_calls() {
-    struct sigaction action = {};
-    action.sa_handler = [](int) { system_calls = system_calls + 1; };
-    action.sa_flags = SA_NODEFER;
-    if (sigaction(SIGSYS, &action, nullptr) != 0) return false;
-    sock_filter filter[] = {
-        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
-        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_exit_group, 1, 0),
-        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_rt_sigreturn, 0, 1),
-        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
-        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_TRAP),
-    };
-    const sock_fprog program{sizeof filter / sizeof *filter, filter};
-    return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
-           prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
-}
-
 constexpr int no_filter = 99;
 constexpr int trap_is_dead = 98;
 
@@ -288,12 +192,12 @@ constexpr int trap_is_dead = 98;
 [[noreturn]] void play_without_system_calls(
     const std::vector<std::unique_ptr<Performance>>& all,
     const std::vector<std::unique_ptr<InstrumentPerformance>>& instruments) {
-    if (!trap_system_calls()) _exit(no_filter);
+    if (!test::trap_system_calls()) _exit(no_filter);
     syscall(SYS_getppid);
-    if (system_calls != 1) _exit(trap_is_dead);
+    if (test::system_calls != 1) _exit(trap_is_dead);
     for (const auto& performance : all) performance->play();
     for (const auto& performance : instruments) performance->play();
-    _exit(std::min(static_cast<int>(system_calls) - 1, 90));
+    _exit(std::min(static_cast<int>(test::system_calls) - 1, 90));
 }
 
 TEST(Realtime, RenderingMakesNoSystemCalls) {
