@@ -28,7 +28,8 @@ void drop_weak_modes(const StringModel& model, StringState& state, const kernels
     active = std::min(padded(active), model.stride);
     for (auto* array : {&state.displacement, &state.velocity, &state.velocity_before,
                         &state.displacement_flown, &state.velocity_flown}) {
-        std::fill(array->begin() + static_cast<std::ptrdiff_t>(active), array->end(), 0.0);
+        std::fill(array->begin() + static_cast<std::ptrdiff_t>(active),
+                  array->begin() + static_cast<std::ptrdiff_t>(state.active_modes), 0.0);
     }
     state.active_modes = active;
 }

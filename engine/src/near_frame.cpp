@@ -104,16 +104,12 @@ void keep_impulses(const StringModel& model, StringState& state, std::size_t n) 
 /// Adds what the step's impulses do to the rates of all later steps, over time for each near contact.
 void spread_over_time(const StringModel& model, StringState& state, std::size_t n) {
     const ContactState& contact = state.contact;
-    const std::size_t later = model.steps_per_frame - n - 1;
     for (std::size_t i = 0; i < contact.candidate_count; ++i) {
         const auto struck = contact.candidates[i];
         const double impulse = contact.impulse[struck];
         if (impulse <= 0) continue;
-        for (std::size_t j = 0; j < contact.near_count; ++j) {
-            const Response response = response_of(model, struck, contact.near[j]);
-            double* rates = state.near_frame.rates.data() + j * model.response_stride + n + 1;
-            kernels::add_difference(later, impulse, response.direct + 1, response.mirrored + 1, rates);
-        }
+        kernels::spread_impulse(model, {contact.near.data(), contact.near_count}, {struck, impulse, n},
+                                state.near_frame.rates.data());
     }
 }
 

@@ -161,7 +161,7 @@ constexpr std::size_t none = limits::contacts;
 inline std::size_t worst_of(const StringModel& model, const PivotTable& table, double tolerance) {
     const Lanes d;
     const Vec zero = hn::Zero(d);
-    const auto slack = [&](std::size_t c) {
+    const auto slack = [&](std::size_t c) HWY_ATTR {
         const Vec allowed = hn::Min(hn::Mul(hn::Load(d, table.sign.data() + c), hn::Set(d, tolerance)), zero);
         return hn::Mul(hn::Load(d, table.scale.data() + c),
                        hn::Sub(hn::Load(d, table.solution.data() + c), allowed));

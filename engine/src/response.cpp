@@ -98,7 +98,7 @@ void set_dense_responses(StringModel& model) {
 
 /// Step by step, so that impulses spread over all contacts at a time.
 void set_step_responses(StringModel& model) {
-    if (model.steps_per_frame > longest_short_frame) return;
+    if (model.steps_per_frame > longest_step_response) return;
     const std::size_t count = model.contact_count;
     model.step_response.assign(model.steps_per_frame * count * model.contact_stride, 0.0);
     for (std::size_t struck = 0; struck < count; ++struck) {

@@ -15,7 +15,7 @@ inline constexpr std::size_t largest_response_table = std::size_t{1} << 22;
 
 /// Frames of at most so many steps have few impulses per contact, so that spreading them over the contacts is
 /// cheaper than over time.
-inline constexpr std::size_t longest_short_frame = 16;
+inline constexpr std::size_t longest_step_response = 16;
 
 /// Finds out whether the contacts lie on a uniform grid, then fills model.compliance.
 void set_compliance(StringModel& model);

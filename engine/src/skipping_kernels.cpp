@@ -6,6 +6,8 @@
 //
 #include <hwy/highway.h>
 
+#include "response.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace jawari::kernels::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -62,20 +64,39 @@ ForceBounds force_bounds(std::size_t begin, std::size_t end, const CertificateMo
             hn::GetLane(hn::SumOfLanes(d, detour)), hn::GetLane(hn::SumOfLanes(d, variation))};
 }
 
-void add_difference(std::size_t n, double scale, const double* HWY_RESTRICT a, const double* HWY_RESTRICT b,
-                    double* HWY_RESTRICT y) {
-    const Lanes d;
-    const std::size_t lanes = hn::Lanes(d);
-    const Vec factor = hn::Set(d, scale);
+/// y <- y + scale (a - b) over any n, without alignment; without b where `mirrors` is false
+template <bool mirrors>
+HWY_INLINE void add_response(std::size_t n, double scale, const double* HWY_RESTRICT a,
+                             const double* HWY_RESTRICT b, double* HWY_RESTRICT y) {
+    const auto add = [&](auto d, std::size_t i) HWY_ATTR {
+        auto response = hn::LoadU(d, a + i);
+        if constexpr (mirrors) response = hn::Sub(response, hn::LoadU(d, b + i));
+        hn::StoreU(hn::MulAdd(hn::Set(d, scale), response, hn::LoadU(d, y + i)), d, y + i);
+    };
+    const std::size_t lanes = hn::Lanes(Lanes());
     std::size_t i = 0;
-    for (; i + lanes <= n; i += lanes) {
-        const Vec difference = hn::Sub(hn::LoadU(d, a + i), hn::LoadU(d, b + i));
-        hn::StoreU(hn::MulAdd(factor, difference, hn::LoadU(d, y + i)), d, y + i);
+    for (; i + lanes <= n; i += lanes) add(Lanes(), i);
+    for (; i < n; ++i) add(hn::CappedTag<double, 1>(), i);
+}
+
+template <bool mirrors>
+HWY_INLINE void spread_to(const StringModel& model, std::span<const std::uint32_t> near,
+                          const StepImpulse& step, double* rates) {
+    const std::size_t later = model.steps_per_frame - step.step - 1;
+    for (const std::uint32_t c : near) {
+        const Response response = response_of(model, step.struck, c);
+        add_response<mirrors>(later, step.impulse, response.direct + 1, response.mirrored + 1,
+                              rates + step.step + 1);
+        rates += model.response_stride;
     }
-    const hn::CappedTag<double, 1> one;
-    for (; i < n; ++i) {
-        const auto difference = hn::Sub(hn::LoadU(one, a + i), hn::LoadU(one, b + i));
-        hn::StoreU(hn::MulAdd(hn::Set(one, scale), difference, hn::LoadU(one, y + i)), one, y + i);
+}
+
+void spread_impulse(const StringModel& model, std::span<const std::uint32_t> near, const StepImpulse& step,
+                    double* rates) {
+    if (model.grid_node.empty()) {
+        spread_to<false>(model, near, step, rates);
+    } else {
+        spread_to<true>(model, near, step, rates);
     }
 }
 
@@ -110,7 +131,7 @@ namespace jawari::kernels {
 
 HWY_EXPORT(add_force_response);
 HWY_EXPORT(force_bounds);
-HWY_EXPORT(add_difference);
+HWY_EXPORT(spread_impulse);
 HWY_EXPORT(mode_bounds);
 
 bool add_force_response(std::size_t n, const FlightModel& flight, const double* held, const double* ramp,
@@ -123,8 +144,9 @@ ForceBounds force_bounds(std::size_t begin, std::size_t end, const CertificateMo
     return HWY_DYNAMIC_DISPATCH(force_bounds)(begin, end, certificate, held, ramp, first, last);
 }
 
-void add_difference(std::size_t n, double scale, const double* a, const double* b, double* y) noexcept {
-    HWY_DYNAMIC_DISPATCH(add_difference)(n, scale, a, b, y);
+void spread_impulse(const StringModel& model, std::span<const std::uint32_t> near, const StepImpulse& step,
+                    double* rates) noexcept {
+    HWY_DYNAMIC_DISPATCH(spread_impulse)(model, near, step, rates);
 }
 
 LargestBounds mode_bounds(std::size_t n, const StringModel& model, const double* q, const double* v,

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
 #include "jawari/model.h"
 
@@ -26,8 +28,16 @@ struct ForceBounds {
 ForceBounds force_bounds(std::size_t begin, std::size_t end, const CertificateModel& certificate,
                          const double* held, const double* ramp, double first, double last) noexcept;
 
-/// y <- y + scale (a - b) over any n, without alignment
-void add_difference(std::size_t n, double scale, const double* a, const double* b, double* y) noexcept;
+struct StepImpulse {
+    std::size_t struck = 0;  ///< contact
+    double impulse = 0;      ///< [N s]
+    std::size_t step = 0;    ///< of the frame
+};
+
+/// rates += what the impulse does to the rates of the near contacts at all later steps of the frame, by
+/// model.response; rows in the order of `near`, response_stride apart.
+void spread_impulse(const StringModel& model, std::span<const std::uint32_t> near, const StepImpulse& step,
+                    double* rates) noexcept;
 
 struct LargestBounds {
     double speed = 0;

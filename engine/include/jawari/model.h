@@ -65,8 +65,8 @@ struct StringModel {
     /// contacts, or one per grid distance (response.h); empty where the table would be too large.
     AlignedVector<double> response;
     std::size_t response_stride = 0;  ///< padded(steps_per_frame)
-    /// The same of short frames step by step: row [n][struck] over contacts, contact_stride apart; else
-    /// empty.
+    /// The same step by step where frames have few steps (response.h): row [n][struck] over contacts,
+    /// contact_stride apart; else empty.
     AlignedVector<double> step_response;
     /// S^T where frames are short (short_frame.h), stride x contact_stride; else empty.
     SharedArray<double> contact_columns;

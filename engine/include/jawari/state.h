@@ -140,7 +140,7 @@ struct NearState {
     AlignedVector<double>
         rates_free;  ///< S v of free flight at each step, in the order of ContactState::near
     AlignedVector<double>
-        rates;  ///< the same with the impulses so far; of short frames step by step, contact_stride apart
+        rates;  ///< the same with the impulses so far; by step responses step by step, contact_stride apart
     AlignedVector<double> impulses;     ///< lambda at each step, in the order of `struck`
     std::vector<std::uint32_t> struck;  ///< contacts with impulses in the frame; `struck_count` are valid
     std::size_t struck_count = 0;
