@@ -21,12 +21,12 @@ packages=(
     nlohmann-json3-dev # scenes and presets
     libsndfile1-dev   # WAV
     libhdf5-dev       # .h5 recordings
+    libboost-dev      # Boost.Lockfree: queues between threads; in tests Boost.Multiprecision: 100-digit references
     gnuplot-nox       # --plot
     fonts-dejavu-core # its labels
     # -- tests and benchmarks
     libgtest-dev      # GoogleTest
     libbenchmark-dev  # Google Benchmark
-    libboost-dev      # Boost.Multiprecision: 100-digit references
     midicsv           # independent reading of MIDI files
     python3           # test scripts
     python3-numpy     # reference simulations, pitch measurement
