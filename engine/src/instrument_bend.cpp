@@ -135,11 +135,11 @@ void set_retuning_tables(StoppedStringModel& stopped) {
     }
 }
 
-BendState make_bend_state(const InstrumentStringModel& string) {
+BendState make_bend_state(const StringSizes& sizes) {
     BendState bend;
-    reserve(bend.model, string.sizes);
-    bend.backward_q.assign(string.sizes.stride, 0.0);
-    bend.backward_u.assign(string.sizes.stride, 0.0);
+    reserve(bend.model, sizes);
+    bend.backward_q.assign(sizes.stride, 0.0);
+    bend.backward_u.assign(sizes.stride, 0.0);
     return bend;
 }
 

@@ -11,7 +11,7 @@ namespace jawari {
 /// Fills what retuning needs to know of a compiled stop.
 void set_retuning_tables(StoppedStringModel& stopped);
 
-BendState make_bend_state(const InstrumentStringModel& string);
+BendState make_bend_state(const StringSizes& sizes);
 
 /// Puts the motion at once at `semitones` from its compiled pitch; 0 restores the compiled string. The
 /// fundamental follows exactly, partials as bending stiffness lets them.

@@ -7,6 +7,7 @@
 #include "instrument_bend.h"
 #include "instrument_hand.h"
 #include "instrument_strings.h"
+#include "instrument_voice.h"
 
 namespace jawari {
 namespace {
@@ -27,7 +28,7 @@ double vibrato(const InstrumentModel& model, const InstrumentState& state, const
 }
 
 void follow_bend(const InstrumentModel& model, InstrumentState& state, std::size_t s, Voice& voice) {
-    const StoppedStringModel& stopped = model.strings[s].stopped[voice.fret];
+    const StoppedStringModel& stopped = string_of(model, state, s).stopped[voice.fret];
     const double wanted = bend_target(model, state, s);
     double& target = voice.bend.target;
     target += follow_share(model, control_frames, bend_follow_s) * (wanted - target);
@@ -51,7 +52,7 @@ double follow_share(const InstrumentModel& model, double frames, double time_s) 
 
 double bend_target(const InstrumentModel& model, const InstrumentState& state,
                    std::size_t s) JAWARI_REALTIME {
-    const HeldNote& held = state.courses[model.strings[s].course].held;
+    const HeldNote& held = state.courses[string_of(model, state, s).course].held;
     const ChannelState& channel = channel_of(state, held.channel);
     const double bend = std::isnan(held.bend) ? channel.bend : held.bend;
     const double pressure = std::isnan(held.pressure) ? channel.pressure : held.pressure;
@@ -60,7 +61,7 @@ double bend_target(const InstrumentModel& model, const InstrumentState& state,
 
 VoiceGains gain_targets(const InstrumentModel& model, const InstrumentState& state, std::size_t s,
                         int channel) JAWARI_REALTIME {
-    const InstrumentStringModel& string = model.strings[s];
+    const InstrumentStringModel& string = string_of(model, state, s);
     const ChannelState& controls = channel_of(state, channel);
     const double pan = std::clamp(string.pan + parameter_of(controls, ParameterId::Pan), -1.0, 1.0);
     const double angle = (pan + 1) * std::numbers::pi / 4;
@@ -84,7 +85,7 @@ void follow_controls(const InstrumentModel& model, InstrumentState& state) JAWAR
         if (string.sounding == no_voice) continue;
         Voice& sounding = string.voices[string.sounding];
         const ChannelState& controls = channel_of(state, sounding.channel);
-        press_palm(model, model.strings[s], sounding, parameter_of(controls, ParameterId::PalmMute),
+        press_palm(model, string_of(model, state, s), sounding, parameter_of(controls, ParameterId::PalmMute),
                    parameter_of(controls, ParameterId::PalmPosition));
         follow_bend(model, state, s, sounding);
     }

@@ -35,7 +35,8 @@ void advance_string(const InstrumentModel& model, InstrumentState& state, std::s
         Voice& voice = string.voices[v];
         if (voice.phase == VoicePhase::Idle) continue;
         for (std::size_t n = 0; n < frames && voice.phase != VoicePhase::Idle; ++n) {
-            const VoiceSignals signals = advance_voice(model, model.strings[s], voice, smoothing, state);
+            const VoiceSignals signals =
+                advance_voice(model, string_of(model, state, s), voice, smoothing, state);
             VoiceSignals& sum = run.signals[n];
             sum.pickups += signals.pickups;
             sum.left += signals.left;
@@ -130,7 +131,7 @@ void render_instrument(const InstrumentModel& model, InstrumentState& state,
 double string_energy(const InstrumentModel& model, InstrumentState& state, std::size_t s) JAWARI_REALTIME {
     double sum = 0;
     for (Voice& voice : state.strings[s].voices) {
-        if (voice.phase != VoicePhase::Idle) sum += voice_energy(model.strings[s], voice);
+        if (voice.phase != VoicePhase::Idle) sum += voice_energy(string_of(model, state, s), voice);
     }
     return sum;
 }

@@ -8,11 +8,19 @@
 namespace jawari {
 namespace {
 
-InstrumentStringState make_string(const InstrumentStringModel& model) {
+/// Of string s at any rung.
+StringSizes largest_sizes(const InstrumentModel& model, std::size_t s) {
+    StringSizes sizes = model.strings[s].sizes;
+    for (const auto& rung : model.lower) sizes = larger(sizes, rung[s].sizes);
+    return sizes;
+}
+
+InstrumentStringState make_string(const InstrumentModel& model, std::size_t s) {
     InstrumentStringState string;
-    const std::size_t voices = model.stopped.size() == 1 ? 1 : voices_per_string;
-    for (std::size_t v = 0; v < voices; ++v) string.voices.push_back(make_voice(model));
-    string.scratch.assign(model.sizes.stride, 0.0);
+    const StringSizes sizes = largest_sizes(model, s);
+    const std::size_t voices = model.strings[s].stopped.size() == 1 ? 1 : voices_per_string;
+    for (std::size_t v = 0; v < voices; ++v) string.voices.push_back(make_voice(sizes));
+    string.scratch.assign(sizes.stride, 0.0);
     return string;
 }
 
@@ -28,7 +36,7 @@ ChannelState neutral_channel() {
 InstrumentState make_instrument_state(const InstrumentModel& model) {
     InstrumentState state;
     state.play = model.play;
-    for (const InstrumentStringModel& string : model.strings) state.strings.push_back(make_string(string));
+    for (std::size_t s = 0; s < model.strings.size(); ++s) state.strings.push_back(make_string(model, s));
     state.courses.resize(model.courses.size());
     state.channels.fill(neutral_channel());
     state.body = make_body_state(model.body);

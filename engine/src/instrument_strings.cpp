@@ -46,7 +46,7 @@ void damp_sounding(const InstrumentModel& model, InstrumentState& state, std::si
     voice.slide.active = false;
     if (!with_hand) return;
     const double time = parameter(state, voice.channel, ParameterId::ReleaseTime);
-    lay_damping_hand(model, model.strings[s], voice, release_velocity, time);
+    lay_damping_hand(model, string_of(model, state, s), voice, release_velocity, time);
 }
 
 /// Keeps a motion free for the next note: fades the quietest damped one if none is idle or on its way there.
@@ -71,7 +71,7 @@ void make_room(const InstrumentStringModel& model, InstrumentStringState& string
 
 /// What the stopping hand and the palm do at the beginning of a note.
 void lay_hands(const InstrumentModel& model, InstrumentState& state, std::size_t s, Voice& voice) {
-    const InstrumentStringModel& string = model.strings[s];
+    const InstrumentStringModel& string = string_of(model, state, s);
     const auto value = [&](ParameterId id) { return parameter(state, voice.channel, id); };
     lift_touch(voice.touches, TouchSlot::Left);
     const double dead = value(ParameterId::DeadNote);
@@ -100,20 +100,20 @@ Voice& take_note(const InstrumentModel& model, InstrumentState& state, std::size
 void start_from_rest(const InstrumentModel& model, InstrumentState& state, std::size_t s, std::size_t v,
                      const Stroke& stroke) {
     InstrumentStringState& string = state.strings[s];
-    start_voice(model, model.strings[s], string.voices[v], stroke.fret, stroke.channel,
+    start_voice(model, string_of(model, state, s), string.voices[v], stroke.fret, stroke.channel,
                 parameter(state, stroke.channel, ParameterId::Action));
     string.busy += 1;
     state.busy = true;
     Voice& voice = take_note(model, state, s, v, stroke.channel);
     voice.gains = voice.targets;
     voice.bend.target = bend_target(model, state, s);
-    set_bend(model.strings[s].stopped[stroke.fret], voice, voice.bend.target, state.work);
+    set_bend(string_of(model, state, s).stopped[stroke.fret], voice, voice.bend.target, state.work);
 }
 
 void excite(const InstrumentModel& model, InstrumentState& state, std::size_t s, Voice& voice,
             const Stroke& stroke) {
     lay_hands(model, state, s, voice);
-    strike_voice(model, model.strings[s], voice, stroke,
+    strike_voice(model, string_of(model, state, s), voice, stroke,
                  parameter(state, stroke.channel, ParameterId::PluckPosition));
     state.counters.notes += 1;
 }
@@ -122,13 +122,13 @@ void begin_stroke(const InstrumentModel& model, InstrumentState& state, std::siz
                   const Stroke& stroke) {
     start_from_rest(model, state, s, v, stroke);
     excite(model, state, s, state.strings[s].voices[v], stroke);
-    make_room(model.strings[s], state.strings[s], state.counters);
+    make_room(string_of(model, state, s), state.strings[s], state.counters);
 }
 
 void wait_for_motion(const InstrumentModel& model, InstrumentState& state, std::size_t s,
                      const Stroke& stroke) {
     InstrumentStringState& string = state.strings[s];
-    make_room(model.strings[s], string, state.counters);
+    make_room(string_of(model, state, s), string, state.counters);
     if (string.pending.active) state.counters.ignored_notes += 1;
     string.pending = {.active = true, .delay = 0, .stroke = stroke};
     state.waiting = true;
@@ -143,19 +143,19 @@ Voice& cross_over(const InstrumentModel& model, InstrumentState& state, std::siz
     const VoiceGains gains = old.gains;
     old.phase = VoicePhase::Damped;
     old.slide.active = false;
-    start_voice(model, model.strings[s], string.voices[v], stroke.fret, stroke.channel,
+    start_voice(model, string_of(model, state, s), string.voices[v], stroke.fret, stroke.channel,
                 parameter(state, stroke.channel, ParameterId::Action));
     string.busy += 1;
     state.busy = true;
     Voice& voice = string.voices[v];
-    carry_over(model.strings[s], old, voice, string.scratch, state.work);
+    carry_over(string_of(model, state, s), old, voice, string.scratch, state.work);
     fade_voice(old);
     voice.rise_frame = 0;
     voice.age = 1;
     take_note(model, state, s, v, stroke.channel);
     voice.gains = gains;
     voice.bend.target = bend_target(model, state, s);
-    set_bend(model.strings[s].stopped[stroke.fret], voice, voice.bend.target, state.work);
+    set_bend(string_of(model, state, s).stopped[stroke.fret], voice, voice.bend.target, state.work);
     lay_hands(model, state, s, voice);
     state.counters.legato_notes += 1;
     return voice;
@@ -165,7 +165,7 @@ bool begin_slide(const InstrumentModel& model, InstrumentState& state, std::size
     const double time_s = parameter(state, stroke.channel, ParameterId::SlideTime);
     if (!(time_s > 0)) return false;
     InstrumentStringState& string = state.strings[s];
-    const InstrumentStringModel& strings = model.strings[s];
+    const InstrumentStringModel& strings = string_of(model, state, s);
     Voice& voice = string.voices[string.sounding];
     const double ratio = strings.stopped[stroke.fret].frequency_hz / strings.stopped[voice.fret].frequency_hz;
     const double begun = voice.slide.active ? voice.bend.semitones - voice.bend.target : 0;
@@ -214,18 +214,18 @@ void continue_string(const InstrumentModel& model, InstrumentState& state, std::
     Stroke lighter = stroke;
     lighter.velocity *= model.hand.legato_level;
     if (lighter.velocity > 0) {
-        strike_voice(model, model.strings[s], voice, lighter,
+        strike_voice(model, string_of(model, state, s), voice, lighter,
                      parameter(state, stroke.channel, ParameterId::PluckPosition));
         lift_touch(voice.touches, TouchSlot::Finger);  // nothing lies on the string before
     }
-    make_room(model.strings[s], string, state.counters);
+    make_room(string_of(model, state, s), string, state.counters);
 }
 
 void arrive(const InstrumentModel& model, InstrumentState& state, std::size_t s) JAWARI_REALTIME {
     InstrumentStringState& string = state.strings[s];
     const std::size_t v = idle_voice(string);
     if (v == no_voice) {  // stays at the slide's end until there is one
-        make_room(model.strings[s], string, state.counters);
+        make_room(string_of(model, state, s), string, state.counters);
         return;
     }
     const Voice& voice = string.voices[string.sounding];
@@ -233,7 +233,7 @@ void arrive(const InstrumentModel& model, InstrumentState& state, std::size_t s)
     stroke.fret = voice.slide.fret;
     stroke.channel = voice.channel;
     cross_over(model, state, s, v, stroke);
-    make_room(model.strings[s], string, state.counters);
+    make_room(string_of(model, state, s), string, state.counters);
 }
 
 void release_string(const InstrumentModel& model, InstrumentState& state, std::size_t s,

@@ -154,13 +154,19 @@ void leave(Touch& touch) {
     touch.share_rate = -std::abs(touch.share_rate);
 }
 
+/// Where the touch has lain since its row was written last.
+double place_of(const StringModel& model, const Touch& touch) {
+    if (touch.sweep_m == 0 || touch.age == 0) return touch.x_m;
+    const std::uint64_t written = (touch.age - 1) / sweep_frames * sweep_frames + 1;
+    const double turns = static_cast<double>(written) * frame_s(model) / sweep_period_s;
+    return touch.x_m + touch.sweep_m * std::sin(2 * std::numbers::pi * turns);
+}
+
 void sweep_touches(const StringModel& model, TouchState& touches) {
     for (Touch& touch : touches.touches) {
         if (!touch.active || touch.sweep_m == 0) continue;
         if (touch.age++ % sweep_frames != 0) continue;
-        const double turns = static_cast<double>(touch.age) * frame_s(model) / sweep_period_s;
-        const double x = touch.x_m + touch.sweep_m * std::sin(2 * std::numbers::pi * turns);
-        write_point_row(model, touch.modes, x, touch.width_m, touch.row.data());
+        write_point_row(model, touch.modes, place_of(model, touch), touch.width_m, touch.row.data());
         touches.outdated = true;
     }
 }
@@ -250,6 +256,18 @@ void apply_touches(const StringModel& model, StringState& string, TouchState& to
         touch.force_N = answer.alone[a] + answer.by_exciter[a] * force_N;
         if (touch.force_N != 0) add_force(string, touch.row.data(), touch.modes, touch.force_N);
     }
+}
+
+void rewrite_touches(const StringModel& model, TouchState& touches, std::size_t kept) JAWARI_REALTIME {
+    for (Touch& touch : touches.touches) {
+        if (!touch.active) continue;
+        touch.modes = modes_in_reach(model);
+        write_point_row(model, touch.modes, place_of(model, touch), touch.width_m, touch.row.data());
+    }
+    // An exciter acts for milliseconds: modes that come in meanwhile do not feel it.
+    AlignedVector<double>& row = touches.exciter.row;
+    std::fill(row.begin() + static_cast<std::ptrdiff_t>(kept), row.end(), 0.0);
+    touches.outdated = true;
 }
 
 void meter_touches(const StringModel& model, const StringState& string, TouchState& touches,

@@ -43,6 +43,9 @@ inline Touch& touch_at(TouchState& touches, TouchSlot slot) {
 /// Sets the string's excitation for the coming frame.
 void apply_touches(const StringModel& model, StringState& string, TouchState& touches) JAWARI_REALTIME;
 
+/// The string has another number of modes from now on, `kept` of which are those it had.
+void rewrite_touches(const StringModel& model, TouchState& touches, std::size_t kept) JAWARI_REALTIME;
+
 /// After the frame: what the forces have done.
 void meter_touches(const StringModel& model, const StringState& string, TouchState& touches,
                    PlayerWork& work) JAWARI_REALTIME;

@@ -120,11 +120,11 @@ void strike_with(const TangentDescription& tangent, const InstrumentModel& model
 
 }  // namespace
 
-Voice make_voice(const InstrumentStringModel& string) {
+Voice make_voice(const StringSizes& sizes) {
     Voice voice;
-    voice.string = allocate_string_state(string.sizes);
-    voice.touches = make_touch_state(string.sizes.stride);
-    voice.bend = make_bend_state(string);
+    voice.string = allocate_string_state(sizes);
+    voice.touches = make_touch_state(sizes.stride);
+    voice.bend = make_bend_state(sizes);
     return voice;
 }
 

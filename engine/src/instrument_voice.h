@@ -7,12 +7,19 @@
 
 namespace jawari {
 
+/// String s at the rung on which it is played.
+inline const InstrumentStringModel& string_of(const InstrumentModel& model, const InstrumentState& state,
+                                              std::size_t s) {
+    const std::size_t rung = state.strings[s].rung;
+    return rung == 0 ? model.strings[s] : model.lower[rung - 1][s];
+}
+
 /// The string as the motion has it: compiled, or bent.
 inline const StringModel& voice_model(const InstrumentStringModel& string, const Voice& voice) {
     return voice.bend.active ? voice.bend.model : string.stopped[voice.fret].string;
 }
 
-Voice make_voice(const InstrumentStringModel& string);
+Voice make_voice(const StringSizes& sizes);
 
 /// At rest at `fret`, everything beneath lowered by `action_m`; sounding, without force.
 void start_voice(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice,

@@ -37,6 +37,7 @@ std::vector<double> performance(const SharedInstrument& instrument, double rate_
                                 const Probe* probe) {
     LiveSettings settings;
     settings.rate_hz = rate_hz;
+    settings.overload.enabled = false;
     LivePlayer player(settings);
     MidiPort& port = *player.add_port();
     player.publish(instrument);

@@ -31,6 +31,7 @@ Performer::Performer(const LiveSettings& settings, LiveLinks& links)
       gain_(settings.gain),
       gain_target_(settings.gain),
       limiter_(limiter_of(settings)) {
+    governor_.settings = settings.overload;
     events_.reserve(most_events);
     chunk_.reserve(most_events);
     gains_.assign(settings.most_frames, settings.gain);
@@ -45,6 +46,7 @@ void Performer::process(double* left, double* right, std::size_t frames,
     events_.clear();
     obey_commands();
     take_messages(frames);
+    adapt_quality();
     for (std::size_t begin = 0; begin < frames;) {
         const std::size_t count = std::min(frames - begin, settings_.most_frames);
         render(left + begin, right + begin, begin, count);

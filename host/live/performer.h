@@ -15,6 +15,7 @@
 #include "live/block_clock.h"
 #include "live/capture_ring.h"
 #include "live/command.h"
+#include "live/governor.h"
 #include "live/instrument.h"
 #include "live/midi_inlet.h"
 #include "live/settings.h"
@@ -86,6 +87,9 @@ class Performer {
     void capture(const double* left, const double* right, std::size_t frames) JAWARI_REALTIME;
     void end_capture() JAWARI_REALTIME;
 
+    // performer_quality.cpp
+    void adapt_quality() JAWARI_REALTIME;
+
     // performer_meters.cpp
     void measure_level(const double* left, const double* right, std::size_t frames) JAWARI_REALTIME;
     void measure_instruments() JAWARI_REALTIME;
@@ -121,6 +125,8 @@ class Performer {
     std::size_t capture_left_ = 0;       // of a recording that ends: frames still in the limiter's delay
     std::vector<StereoFrame> captured_;  // of the part of the block
 
+    Governor governor_;
+    std::size_t lowered_ = 0;  // strings below full quality
     double mean_load_ = 0;
     std::uint64_t nonfinite_resets_ = 0;
     InstrumentCounters retired_counters_;  // of instruments given back

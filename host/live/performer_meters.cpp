@@ -104,6 +104,11 @@ void Performer::measure(std::size_t frames, std::int64_t started_ns) JAWARI_REAL
     meters.mean_load.store(mean_load_, relaxed);
     raise(meters.worst_load, load);
     if (load > 1) meters.late_blocks.fetch_add(1, relaxed);
+    if (!govern(governor_, load, available_s)) return;
+    const int level = static_cast<int>(governor_.level);
+    meters.overload_level.store(level, relaxed);
+    meters.overload_changes.fetch_add(1, relaxed);
+    notify(LiveNotice::Kind::OverloadLevel, level);
 }
 
 void Performer::notify(LiveNotice::Kind kind, double value) JAWARI_REALTIME {

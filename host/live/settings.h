@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "live/governor.h"
 #include "midi/interpreter.h"
 
 namespace jawari::host {
@@ -20,6 +21,7 @@ struct LiveSettings {
     double gain = 1;                     ///< factor of everything, 0 or more
     std::optional<double> limiter_dbfs;  ///< ceiling; delays everything by limiter_look_ahead_s
     double ring_out_s = 10;  ///< longest time that an instrument sounds on after another took its place
+    OverloadSettings overload;
     std::int64_t (*clock)() noexcept = steady_clock_ns;  ///< measures how long blocks take
 };
 

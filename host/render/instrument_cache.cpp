@@ -1,8 +1,10 @@
 #include "render/instrument_cache.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/cpu_clock.h"
+#include "jawari/instrument_rungs.h"
 #include "library/preset_library.h"
 
 namespace jawari::host {
@@ -13,11 +15,27 @@ Outcome<SharedInstrument> load_and_compile(const std::string& name, const Instru
     const double started = thread_cpu_s();
     auto model = compile_instrument(preset.value().instrument, settings.output_rate_hz);
     if (!model) return invalid_input(preset.value().file, model.failure());
+    if (settings.rungs) {
+        const auto lower = live_rungs(preset.value().instrument.quality, settings.output_rate_hz);
+        if (auto failure = add_rungs(model.value(), preset.value().instrument, lower))
+            return invalid_input(preset.value().file, *failure);
+    }
     auto loaded = std::make_shared<LoadedInstrument>();
     loaded->preset = std::move(preset.value());
     loaded->model = std::move(model.value());
     loaded->cpu_compile_s = thread_cpu_s() - started;
     return SharedInstrument(std::move(loaded));
+}
+
+std::vector<QualityDescription> live_rungs(const QualityDescription& full, double output_rate_hz) {
+    std::vector<QualityDescription> rungs;
+    for (const auto& [share, limit_hz] : {std::pair{0.5, 10000.0}, std::pair{0.2, 5000.0}}) {
+        QualityDescription rung;
+        rung.contact_rate_min_hz = std::max(share * full.contact_rate_min_hz, 2 * output_rate_hz);
+        rung.mode_limit_hz = std::min(full.mode_limit_hz, limit_hz);
+        rungs.push_back(rung);
+    }
+    return rungs;
 }
 
 Outcome<Preset> load_with(const std::string& preset, const InstrumentSettings& settings) {

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/error.h"
 #include "jawari/instrument_model.h"
@@ -23,6 +24,7 @@ struct InstrumentSettings {
     Quality quality = Quality::Live;
     std::optional<KeyFrequencies> tuning;
     bool move_frets = false;
+    bool rungs = false;  ///< compiled at lower qualities too (live_rungs()), for playing live
 };
 
 struct LoadedInstrument {
@@ -54,5 +56,9 @@ Outcome<SharedInstrument> load_and_compile(const std::string& name, const Instru
 
 /// The preset with quality and tuning, before compile_instrument().
 Outcome<Preset> load_with(const std::string& preset, const InstrumentSettings& settings);
+
+/// What live playing falls back to under overload: half, then a fifth of the contact rate, and modes up to 10
+/// kHz, then 5 kHz; where that is less than the instrument has.
+std::vector<QualityDescription> live_rungs(const QualityDescription& full, double output_rate_hz);
 
 }  // namespace jawari::host

@@ -28,7 +28,7 @@ InstrumentModel one_string(bool lossless) {
 }
 
 Voice ringing_voice(const InstrumentModel& model) {
-    Voice voice = make_voice(model.strings[0]);
+    Voice voice = make_voice(model.strings[0].sizes);
     start_voice(model, model.strings[0], voice, 0, 0, 0);
     for (std::size_t k = 0; k < 40; ++k) {
         voice.string.displacement[k] = 1e-6 / static_cast<double>(k + 1);

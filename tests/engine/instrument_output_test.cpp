@@ -71,7 +71,7 @@ TEST(Pickup, BridgeForceIsTensionTimesSlope) {
     instrument.body = {{.frequency_hz = 100, .t60_s = 1, .gain_left = 1, .gain_right = 1}};
     const InstrumentModel model = compile_instrument(instrument, 192000).value();
     const StoppedStringModel& stopped = model.strings[0].stopped[0];
-    Voice voice = make_voice(model.strings[0]);
+    Voice voice = make_voice(model.strings[0].sizes);
     start_voice(model, model.strings[0], voice, 0, 0, 0);
     const Pluck triangle{.position_m = 0.5, .height_m = 1e-3};
     for (std::size_t k = 0; k < stopped.string.mode_count; ++k)
@@ -90,7 +90,7 @@ TEST(Pickup, QuantitiesMixAndMagnet) {
                           {.place = {.share = 0.2}, .level = 1, .magnet_distance_m = 0.004}};
     const InstrumentModel model = compile_instrument(instrument, 48000).value();
     const StoppedStringModel& stopped = model.strings[0].stopped[0];
-    Voice voice = make_voice(model.strings[0]);
+    Voice voice = make_voice(model.strings[0].sizes);
     start_voice(model, model.strings[0], voice, 0, 0, 0);
     voice.string.displacement[0] = 1e-3;
     voice.string.velocity[0] = 0.7;

@@ -37,7 +37,7 @@ void expect_projection(std::size_t from_fret, std::size_t to_fret) {
     const InstrumentStringModel& string = model.strings[0];
     const StoppedStringModel& a = string.stopped[from_fret];
     const StoppedStringModel& b = string.stopped[to_fret];
-    Voice from = make_voice(string), to = make_voice(string);
+    Voice from = make_voice(string.sizes), to = make_voice(string.sizes);
     start_voice(model, string, from, from_fret, 0, 0);
     start_voice(model, string, to, to_fret, 0, 0);
     AlignedVector<double> u(a.string.stride, 0.0);

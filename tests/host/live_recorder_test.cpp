@@ -78,7 +78,9 @@ TEST(LiveRecorder, TheTakeRendersToTheRecording) {
         bool compiled = false;
         return cache.get("bass-fretted", compiled).value();
     }();
-    LivePlayer player({});
+    LiveSettings plain;
+    plain.overload.enabled = false;
+    LivePlayer player(plain);
     MidiPort& port = *player.add_port();
     ASSERT_TRUE(player.publish(instrument));
     RecordingSettings settings;

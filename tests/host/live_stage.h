@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "jawari/instrument_rungs.h"
 #include "latency/adversary.h"
 #include "live/player.h"
 #include "render/instrument_cache.h"
@@ -16,13 +17,17 @@ namespace jawari::test {
 
 /// A factory preset made cheap: few strings, few modes, a low contact rate.
 inline host::SharedInstrument small_live_instrument(const std::string& name, double rate_hz = 48000,
-                                                    std::size_t strings = 3) {
+                                                    std::size_t strings = 3, bool rungs = false) {
     const host::InstrumentSettings settings;
     host::Preset preset = host::load_with(name, settings).value();
     preset.instrument.quality = {2 * rate_hz, 3000};
     if (preset.instrument.strings.size() > strings) preset.instrument.strings.resize(strings);
     auto loaded = std::make_shared<host::LoadedInstrument>();
     loaded->model = compile_instrument(preset.instrument, rate_hz).value();
+    if (rungs) {
+        const std::vector<QualityDescription> lower{{2 * rate_hz, 1500}, {rate_hz, 800}};
+        EXPECT_FALSE(add_rungs(loaded->model, preset.instrument, lower));
+    }
     loaded->preset = preset;
     return loaded;
 }
@@ -31,6 +36,7 @@ inline host::LiveSettings live_settings(double rate_hz = 48000) {
     host::LiveSettings settings;
     settings.rate_hz = rate_hz;
     settings.interpreter.map = host::adversary_map();
+    settings.overload.enabled = false;  // a busy machine must not decide what tests hear
     return settings;
 }
 

@@ -80,6 +80,9 @@ struct InstrumentModel {
     std::vector<PickupDescription> pickups;
     std::vector<double> fade_shape;  ///< output gain of a motion being taken away, from 1 to 0, one per frame
     std::vector<InstrumentStringModel> strings;
+    /// The same strings at lower qualities, each lower than the one before (instrument_rungs.h); rung r of a
+    /// string is lower[r - 1], rung 0 is `strings`.
+    std::vector<std::vector<InstrumentStringModel>> lower;
     std::vector<CourseModel> courses;
     BodyModel body;
 };

@@ -77,6 +77,8 @@ struct PlayerWork {
                              ///< contact acted within the frame
     double bends_J = 0;      ///< parametric work of retuning
     double transfers_J = 0;  ///< legato: energy of the motion after less that before
+    double rungs_J = 0;  ///< likewise of change_rung(): of the modes that are left out, but for rounding of
+                         ///< the order of the step
 };
 
 }  // namespace jawari

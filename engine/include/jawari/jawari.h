@@ -9,6 +9,7 @@
 #include "jawari/instrument_description.h"
 #include "jawari/instrument_model.h"
 #include "jawari/instrument_render.h"
+#include "jawari/instrument_rungs.h"
 #include "jawari/instrument_state.h"
 #include "jawari/model.h"
 #include "jawari/modes.h"
