@@ -1,3 +1,4 @@
+#!/usr/bin/python3
 """Key to sound through JACK: MIDI out of one client, through the program, back into its audio input.
 
 loop_latency.py PROGRAM SENDER PROBE [NOTES [FRAMES...]]: a line per block size. Without block sizes, 256, and the bound
