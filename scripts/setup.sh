@@ -21,6 +21,7 @@ packages=(
     nlohmann-json3-dev # scenes and presets
     libsndfile1-dev   # WAV
     libhdf5-dev       # .h5 recordings
+    libboost-dev      # Boost.Lockfree: queues between threads; in tests Boost.Multiprecision: 100-digit references
     gnuplot-nox       # --plot
     fonts-dejavu-core # its labels
     librtaudio-dev    # play: audio devices
@@ -31,7 +32,6 @@ packages=(
     # -- tests and benchmarks
     libgtest-dev      # GoogleTest
     libbenchmark-dev  # Google Benchmark
-    libboost-dev      # Boost.Multiprecision: 100-digit references
     midicsv           # independent reading of MIDI files
     jackd2            # live tests: a sound server without hardware
     python3           # test scripts

@@ -23,8 +23,8 @@ struct Probe {
 
 std::vector<int> keys_of(const InstrumentModel& model) {
     std::vector<int> keys;
-    for (const InstrumentStringModel& string : model.strings) {
-        for (const StoppedStringModel& stopped : string.stopped) {
+    for (const CourseModel& course : model.courses) {  // whose first string gives the keys
+        for (const StoppedStringModel& stopped : model.strings[course.strings.front()].stopped) {
             if (stopped.key >= 0) keys.push_back(stopped.key);
         }
     }

@@ -73,6 +73,7 @@ void Performer::take_messages(std::size_t frames) JAWARI_REALTIME {
 
 void Performer::apply(const ChannelMessage& message, std::size_t offset) JAWARI_REALTIME {
     interpret(interpreter_, message, actions_);
+    remember(controllers_, message);
     for (std::size_t i = 0; i < actions_.count; ++i) add_event(actions_.events[i], offset);
     if (actions_.program.asked) {
         const ProgramRequest& asked = actions_.program;

@@ -15,6 +15,7 @@
 #include "live/block_clock.h"
 #include "live/capture_ring.h"
 #include "live/command.h"
+#include "live/controller_memory.h"
 #include "live/governor.h"
 #include "live/instrument.h"
 #include "live/midi_inlet.h"
@@ -119,6 +120,7 @@ class Performer {
     std::vector<double> gains_;  // of the part of the block
     std::optional<Limiter> limiter_;
 
+    ControllerMemory controllers_ = make_controller_memory();
     CaptureRing* capture_ = nullptr;
     std::uint64_t capture_begin_ = 0;    // frame_ at the recording's first frame
     std::size_t capture_skip_ = 0;       // frames of the limiter's delay still to be left out

@@ -143,6 +143,9 @@ void Performer::start_capture(CaptureRing* ring) JAWARI_REALTIME {
     capture_begin_ = frame_;
     capture_skip_ = limiter_ ? limiter_->look_ahead : 0;
     capture_left_ = 0;
+    recall(controllers_, [ring](const ChannelMessage& message) {
+        if (!ring->messages.push({0, message})) ring->lost_messages.fetch_add(1, std::memory_order_relaxed);
+    });
     const bool rests = std::all_of(stage_.begin(), stage_.begin() + static_cast<std::ptrdiff_t>(sounding_),
                                    [](const LiveInstrument* one) { return is_silent(one->state); });
     if (!rests) return;

@@ -128,6 +128,34 @@ TEST(InstrumentRungs, TheModesThatStayGoOnAsTheyWere) {
         ASSERT_NEAR(from_full[n], force * from_start[n], 1e-9 * largest(from_start)) << n;
 }
 
+/// The exact scheme samples free motion exactly at any step: displacement does not know of the contact rate,
+/// if the velocity has been converted rightly.
+TEST(InstrumentRungs, AnotherContactRateGoesOnWithTheSameMotion) {
+    InstrumentDescription instrument = small_instrument();
+    instrument.strings = {instrument.strings[2]};
+    instrument.obstacles.clear();
+    instrument.body.clear();
+    instrument.soft_touches.clear();
+    instrument.contacts = false;
+    for (PickupDescription& pickup : instrument.pickups) pickup.quantity = PickupQuantity::Displacement;
+    QualityDescription slower = instrument.quality;
+    slower.contact_rate_min_hz /= 4;
+    slower.mode_limit_hz = instrument.quality.mode_limit_hz;
+    const InstrumentModel model = with_rungs(instrument, {slower});
+    ASSERT_NE(model.lower[0][0].stopped[0].string.step_s, model.strings[0].stopped[0].string.step_s);
+    std::vector<double> sounds[2];
+    for (const bool changed : {false, true}) {
+        InstrumentState state = make_instrument_state(model);
+        const std::vector<InstrumentEvent> events{
+            {.type = InstrumentEventType::NoteOn, .key = model.strings[0].stopped[1].key, .value = 0.8}};
+        test::play(model, state, events, 2000);
+        if (changed) change_rung(model, state, 0, 1);
+        sounds[changed] = test::play(model, state, {}, 4000).left;
+    }
+    for (std::size_t n = 0; n < sounds[0].size(); ++n)
+        ASSERT_NEAR(sounds[0][n], sounds[1][n], 1e-9 * largest(sounds[0])) << n;
+}
+
 TEST(InstrumentRungs, NoChangeAddsEnergy) {
     const InstrumentDescription instrument = small_instrument();
     QualityDescription half = instrument.quality, fifth = instrument.quality;

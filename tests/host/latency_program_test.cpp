@@ -66,7 +66,7 @@ TEST(LatencyProgram, RefusesWhatMakesNoSense) {
 
 TEST(Latency, EventsChangeTheirOwnFrame) {
     for (const char* const preset :
-         {"guitar-steel", "bass-slap", "clavichord", "dulcimer", "harpsichord", "sitar"}) {
+         {"guitar-steel", "bass-slap", "clavichord", "dulcimer", "harpsichord", "sitar", "guitar-12"}) {
         const EventDelay delay = measure_event_delay(small_live_instrument(preset), 48000);
         EXPECT_EQ(delay.at_rest, std::optional<std::size_t>(0)) << preset;
         EXPECT_EQ(delay.sounding, std::optional<std::size_t>(0)) << preset;

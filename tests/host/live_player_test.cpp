@@ -104,6 +104,10 @@ TEST(LivePlayer, ARecordingBegunLaterReproducesToo) {
     MidiPort& port = *player.add_port();
     ASSERT_TRUE(player.publish(instrument));
     LiveSound before;
+    for (const ChannelMessage& message :
+         {ChannelMessage{0xB0, 101, 0}, ChannelMessage{0xB0, 100, 0}, ChannelMessage{0xB0, 6, 7},
+          ChannelMessage{0xE0, 3, 80}, ChannelMessage{0xB0, 10, 20}, ChannelMessage{0xB0, 64, 127}})
+        port.push({message, 0});
     std::int64_t now = before.add(player, 1001, start_ns, rate_hz);  // no multiple of the control rate
     const auto ring = std::make_shared<CaptureRing>(100000, 1000);
     ASSERT_TRUE(player.start_capture(ring));
