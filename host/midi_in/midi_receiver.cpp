@@ -16,6 +16,8 @@ namespace jawari::host {
 namespace {
 
 constexpr const char* client_name = "jawari-midi";
+/// Has no ports; named apart so that the ports' client has its name without a number.
+constexpr const char* lister_name = "jawari-list";
 constexpr const char* virtual_port_name = "in";
 
 Error midi_error(const std::string& reason) {
@@ -26,8 +28,8 @@ Error midi_error(const std::string& reason) {
 /// Keeps the library from writing to standard error by itself.
 void ignore_errors(RtMidiError::Type /*type*/, const std::string& /*text*/, void* /*user*/) {}
 
-std::unique_ptr<RtMidiIn> make_client(const std::string& system) {
-    auto midi = std::make_unique<RtMidiIn>(RtMidi::getCompiledApiByName(system), client_name);
+std::unique_ptr<RtMidiIn> make_client(const std::string& system, const char* name) {
+    auto midi = std::make_unique<RtMidiIn>(RtMidi::getCompiledApiByName(system), name);
     midi->setErrorCallback(&ignore_errors);
     midi->ignoreTypes(true, true, true);
     return midi;
@@ -72,7 +74,7 @@ Outcome<std::unique_ptr<MidiLister>> MidiLister::create(const std::string& syste
     const QuietStandardError quiet;
     std::unique_ptr<MidiLister> lister(new MidiLister);
     try {
-        lister->midi_ = make_client(system);
+        lister->midi_ = make_client(system, lister_name);
     } catch (const std::exception& problem) {
         return midi_error(problem.what());
     }
@@ -103,7 +105,7 @@ std::vector<std::string> MidiLister::names() {
 Outcome<std::unique_ptr<MidiReceiver>> MidiReceiver::create(const std::string& system,
                                                             const std::string& name, MidiPort& port) {
     std::unique_ptr<MidiReceiver> receiver(new MidiReceiver(name, port));
-    receiver->midi_ = make_client(system);
+    receiver->midi_ = make_client(system, client_name);
     receiver->midi_->setCallback(&receive, receiver.get());
     return receiver;
 }

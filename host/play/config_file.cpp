@@ -71,6 +71,7 @@ void read_sound(ObjectReader& reader, PlayOptions& options) {
             reader.choice<Quality>("quality", {{name_of(Quality::Live), Quality::Live},
                                                {name_of(Quality::Studio), Quality::Studio},
                                                {name_of(Quality::Reference), Quality::Reference}});
+    if (reader.has("fixed_quality")) options.fixed_quality = reader.flag("fixed_quality");
     if (reader.has("gain_db")) options.gain_db = reader.number("gain_db", {-120, 60});
     if (reader.has("limiter_dbfs")) options.limiter_dbfs = reader.number("limiter_dbfs", {-40, 0});
     if (reader.has("tuning")) options.tuning = name(reader, "tuning");
@@ -111,6 +112,7 @@ PlayOptions merge(PlayOptions own, const PlayOptions& other) {
     prefer(own.rate_hz, other.rate_hz);
     prefer(own.frames, other.frames);
     prefer(own.quality, other.quality);
+    prefer(own.fixed_quality, other.fixed_quality);
     prefer(own.gain_db, other.gain_db);
     prefer(own.limiter_dbfs, other.limiter_dbfs);
     prefer(own.tuning, other.tuning);
@@ -145,10 +147,10 @@ Outcome<PlayOptions> read_play_config(const std::string& text, const std::string
     Problems problems;
     ObjectReader reader(
         document.value(), "",
-        {"schema",       "preset",     "audio",    "audio_device",   "midi",         "midi_in",
-         "rate_hz",      "frames",     "quality",  "gain_db",        "limiter_dbfs", "tuning",
-         "keyboard_map", "move_frets", "midi_map", "guitar_channel", "parameters",   "osc_port",
-         "osc_host",     "shell",      "monitor",  "retry",          "lock_memory"},
+        {"schema",   "preset",       "audio",      "audio_device",  "midi",           "midi_in",
+         "rate_hz",  "frames",       "quality",    "fixed_quality", "gain_db",        "limiter_dbfs",
+         "tuning",   "keyboard_map", "move_frets", "midi_map",      "guitar_channel", "parameters",
+         "osc_port", "osc_host",     "shell",      "monitor",       "retry",          "lock_memory"},
         problems);
     reader.choice<int>("schema", {{schema, 1}});
     PlayOptions options;

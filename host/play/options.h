@@ -23,6 +23,7 @@ struct PlayOptions {
     std::optional<std::uint32_t> rate_hz;
     std::optional<std::uint32_t> frames;
     std::optional<Quality> quality;
+    std::optional<bool> fixed_quality;  ///< never lowered under load
     std::optional<double> gain_db;
     std::optional<double> limiter_dbfs;
     std::optional<std::string> tuning, keyboard_map;
@@ -49,7 +50,6 @@ inline constexpr const char* preset = "auto";
 inline constexpr const char* first_preset = "guitar-steel";
 inline constexpr std::uint32_t rate_hz = 48000;
 inline constexpr std::uint32_t frames = 128;
-inline constexpr double limiter_dbfs = -1;
 inline constexpr const char* osc_host = "127.0.0.1";
 }  // namespace play_defaults
 

@@ -24,6 +24,7 @@ Outcome<InstrumentSettings> instrument_settings(const PlayOptions& options, doub
     settings.output_rate_hz = rate_hz;
     settings.quality = options.quality.value_or(Quality::Live);
     settings.move_frets = options.move_frets.value_or(false);
+    settings.rungs = !options.fixed_quality.value_or(false);
     if (!options.tuning) return settings;
     const auto tuning = load_tuning(*options.tuning, options.keyboard_map.value_or(""));
     if (!tuning) return tuning.error();
@@ -52,6 +53,7 @@ Outcome<LiveSettings> live_settings(const PlayOptions& options, const Instrument
     settings.most_frames = frames;
     settings.gain = gain_factor(options.gain_db.value_or(0));
     settings.limiter_dbfs = options.limiter_dbfs;
+    settings.overload.enabled = !options.fixed_quality.value_or(false);
     for (const auto& [parameter, value] : options.parameters)
         if (parameter == ParameterId::BendRange) settings.interpreter.bend_range_semitones = value;
     if (options.midi_map) {

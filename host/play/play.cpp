@@ -129,14 +129,14 @@ class Conductor {
 
 }  // namespace
 
-MaybeError play(const PlayOptions& given) {
-    auto options = with_config_file(given);
-    if (!options) return options.error();
-    if (auto error = check_options(options.value())) return error;
+MaybeError play(const PlayOptions& options) {
+    const auto whole = with_config_file(options);
+    if (!whole) return whole.error();
+    const PlayOptions& wanted = whole.value();
+    if (auto error = check_options(wanted)) return error;
     std::optional<OscServer> osc;
-    if (options.value().osc_port) {
-        auto server = OscServer::open(options.value().osc_host.value_or(play_defaults::osc_host),
-                                      *options.value().osc_port);
+    if (wanted.osc_port) {
+        auto server = OscServer::open(wanted.osc_host.value_or(play_defaults::osc_host), *wanted.osc_port);
         if (!server) return server.error();
         osc.emplace(std::move(server.value()));
     }
@@ -148,9 +148,9 @@ MaybeError play(const PlayOptions& given) {
         else
             report({ExitCode::Ok, line});
     };
-    Session session(options.value(), say);
+    Session session(wanted, say);
     if (auto error = session.open()) return error;
-    console = std::make_unique<Console>(options.value().shell.value_or(true), preset_names);
+    console = std::make_unique<Console>(wanted.shell.value_or(true), preset_names);
     auto error = Conductor(session, *console, osc ? &*osc : nullptr).run();
     console.reset();
     if (auto failed = session.close(); failed && !error) return failed;

@@ -98,6 +98,8 @@ void add_sound_options(CLI::App& app, PlayOptions& options) {
         ->check(some_name());
     add_choice(app, "--quality", options.quality, qualities,
                "How finely strings are computed: live (as the preset says) unless told");
+    add_flag(app, "--fixed-quality", options.fixed_quality, true,
+             "Never lower the quality under load: late blocks are then heard as gaps");
     app.add_option("--gain", options.gain_db, "Louder or softer than the preset says, -120 to 60 dB")
         ->type_name("DB")
         ->check(number_between(-120, 60));

@@ -83,7 +83,7 @@ class Performance:
         port = live_bench.free_port()
         keyboard = bench.sender()
         wav, self.midi, self.heard = bench.path("take.wav"), bench.path("take.mid"), bench.path("heard.wav")
-        player = bench.play("--preset", PRESET, "--audio", "jack", "--midi", "jack", "--midi-in", "keyboard", "--osc-port",
+        player = bench.play("--preset", PRESET, "--fixed-quality", "--audio", "jack", "--midi", "jack", "--midi-in", "keyboard", "--osc-port",
                             str(port), "--record", wav, "--record-midi", self.midi, "--force")
         player.expect_keyboard("keyboard")
         recorder = subprocess.Popen(["jack_rec", "-f", self.heard, "-d", str(int(seconds) + 2), "-b", "16", "jawari:outport 0"],

@@ -14,7 +14,7 @@ TEST(PlayConfig, ReadsEveryKey) {
     const auto options =
         read_play_config(R"({"schema": "jawari.play-config/1", "comment": "mine", "preset": "sitar",
         "audio": "jack", "audio_device": "USB", "midi": "alsa", "midi_in": "virtual", "rate_hz": 44100, "frames": 64,
-        "quality": "studio", "gain_db": -3, "limiter_dbfs": -1, "tuning": "a.scl", "keyboard_map": "a.kbm",
+        "quality": "studio", "fixed_quality": true, "gain_db": -3, "limiter_dbfs": -1, "tuning": "a.scl", "keyboard_map": "a.kbm",
         "move_frets": true, "midi_map": "m.json", "guitar_channel": 2, "parameters": {"pan": 0.5, "palm_mute": 1},
         "osc_port": 7770, "osc_host": "0.0.0.0", "shell": false, "monitor": true, "retry": false,
         "lock_memory": true})",
@@ -29,6 +29,7 @@ TEST(PlayConfig, ReadsEveryKey) {
     EXPECT_EQ(all.rate_hz, 44100U);
     EXPECT_EQ(all.frames, 64U);
     EXPECT_EQ(all.quality, Quality::Studio);
+    EXPECT_EQ(all.fixed_quality, true);
     EXPECT_EQ(all.gain_db, -3);
     EXPECT_EQ(all.limiter_dbfs, -1);
     EXPECT_EQ(all.tuning, "a.scl");
