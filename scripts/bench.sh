@@ -2,15 +2,18 @@
 # Runs the benchmarks and writes docs/benchmarks.md, its CSV files (docs/benchmarks/) and plots (docs/images/benchmarks/).
 # Usage: scripts/bench.sh [STAGE...]     without stages: all of them, in under 20 minutes on two cores
 #   Stages: accuracy convergence work-precision siconos peers cost instructions speed plots page
+#   Only if named: latency (live playing, docs/live-engine.md; a million blocks each, hours)
 # The reference solutions are files; benchmarks/reference/make_references.py remakes them.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
 all=(accuracy convergence work-precision siconos peers cost instructions speed plots page)
+named_only=(latency)
 stages=("$@")
 ((${#stages[@]})) || stages=("${all[@]}")
 for stage in "${stages[@]}"; do
-    [[ " ${all[*]} " == *" $stage "* ]] || { echo "bench.sh: unknown stage '$stage' (allowed: ${all[*]})" >&2; exit 2; }
+    [[ " ${all[*]} ${named_only[*]} " == *" $stage "* ]] ||
+        { echo "bench.sh: unknown stage '$stage' (allowed: ${all[*]} ${named_only[*]})" >&2; exit 2; }
 done
 
 export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
@@ -58,6 +61,7 @@ run_stage() {
             done
             ;;
         page) "$python" -B benchmarks/page/page.py ;;
+        latency) "$bin/jawari" bench-latency --csv "$data/latency.csv" --plot docs/images/benchmarks/latency.svg ;;
     esac
 }
 

@@ -20,7 +20,7 @@ LiveSettings settings_of(const BlockTimeSettings& wanted) {
     LiveSettings settings;
     settings.rate_hz = wanted.rate_hz;
     settings.interpreter.map = adversary_map();
-    settings.overload.enabled = false;  // what it would cost at full quality
+    settings.overload.enabled = wanted.governor;
     return settings;
 }
 
@@ -92,6 +92,7 @@ Outcome<BlockTimes> measure_blocks(const SharedInstrument& instrument, const Blo
         }
         const LiveStatistics statistics = pass.statistics();
         times.notes = statistics.notes;
+        times.late += statistics.late_blocks;
     }
     return times;
 }

@@ -17,6 +17,7 @@ struct BlockTimeSettings {
     std::uint64_t blocks = 1000;  ///< played in each pass
     std::size_t passes = 7;       ///< identical ones; what differs between them is the machine
     std::uint32_t seed = 1;
+    bool governor = false;                          ///< passes then differ: quality follows the machine
     std::function<void(double fraction)> progress;  ///< may be empty
 };
 
@@ -26,6 +27,7 @@ struct BlockTimes {
     std::vector<float> minimum;  ///< of each block, over the passes: rendering is deterministic, so what is
                                  ///< left out is the machine's (scheduler, interrupts, caches of others)
     std::uint64_t notes = 0;     ///< excited in a pass
+    std::uint64_t late = 0;      ///< blocks of all passes that took longer than they last, by the wall clock
 };
 
 /// Ends early with the interruption's error on SIGINT or SIGTERM.

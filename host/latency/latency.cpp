@@ -36,6 +36,7 @@ Outcome<Job> survey(const std::string& preset, const LatencyOptions& options) {
     InstrumentSettings settings;
     settings.output_rate_hz = options.rate_hz;
     settings.quality = options.quality;
+    settings.rungs = options.governor;
     InstrumentCache cache(settings);
     bool compiled = false;
     auto instrument = cache.get(preset, compiled);
@@ -63,6 +64,7 @@ MaybeError measure_size(Job& job, std::size_t frames, const LatencyOptions& opti
     timing.passes = options.passes;
     timing.blocks = (options.blocks + options.passes - 1) / options.passes;
     timing.seed = options.seed;
+    timing.governor = options.governor;
     ProgressBar bar(job.result.preset + ", " + std::to_string(frames) + " frames");
     timing.progress = [&bar](double fraction) { bar.update(fraction); };
     auto times = measure_blocks(job.instrument, timing);
@@ -71,6 +73,7 @@ MaybeError measure_size(Job& job, std::size_t frames, const LatencyOptions& opti
     result.frames = frames;
     result.blocks = timing.blocks;
     result.passes = timing.passes;
+    result.late = times.value().late;
     result.raw_histogram = histogram_of(times.value().raw, histogram_width, histogram_bins);
     result.minimum_histogram = histogram_of(times.value().minimum, histogram_width, histogram_bins);
     result.raw = distribution_of(std::move(times.value().raw));
@@ -134,7 +137,7 @@ MaybeError bench_latency(const LatencyOptions& options) {
     LatencyReport report;
     report.processor = processor_name();
     report.rate_hz = options.rate_hz;
-    report.quality = name_of(options.quality);
+    report.quality = std::string(name_of(options.quality)) + (options.governor ? ", governed" : "");
     for (Job& job : jobs) report.presets.push_back(std::move(job.result));
     return write_report(report, options);
 }

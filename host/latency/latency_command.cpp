@@ -75,6 +75,8 @@ void add_bench_latency_command(CLI::App& app, Command& command) {
               "Sampling rate, 48000 unless told");
     add_whole(*bench, "--seed", options->seed, 0, largest_seed, "Of the playing; 1 unless told");
     add_choice(*bench, "--quality", *quality, qualities, "live unless told");
+    bench->add_flag("--governor", options->governor,
+                    "Let quality drop under overload, as live; passes then differ from one another");
     bench->add_option("--json", options->json, "Everything as JSON; - for standard output")
         ->type_name("FILE");
     bench->add_option("--csv", options->csv, "The table as CSV")->type_name("FILE");

@@ -69,7 +69,7 @@ MaybeError plot_latency(const LatencyReport& report, const std::string& path) {
     const double height = 1.0 / static_cast<double>(std::max<std::size_t>(1, frames.size()));
     double top = 1;
     for (const std::size_t size : frames) {
-        script += panel_of(report, size, {0.08, 0.98, top - 0.78 * height, top - 0.12 * height, 0.28});
+        script += panel_of(report, size, {0.1, 0.7, top - 0.78 * height, top - 0.12 * height, 0.28});
         top -= height;
     }
     return draw(path, width_px, panel_px * static_cast<int>(frames.size()), script + "unset multiplot\n");

@@ -97,6 +97,8 @@ std::string latency_text(const LatencyReport& report) {
         for (const BlockSizeResult& size : preset.sizes) {
             text += table_row(size.frames, "raw", size.raw);
             text += table_row(size.frames, "minimum", size.minimum);
+            text +=
+                line("          late by the wall clock: %llu\n", static_cast<unsigned long long>(size.late));
         }
     }
     return text;
@@ -110,6 +112,7 @@ std::string latency_json(const LatencyReport& report) {
             sizes.push_back({{"frames", size.frames},
                              {"blocks_per_pass", size.blocks},
                              {"passes", size.passes},
+                             {"late_blocks", size.late},
                              {"raw", distribution_json(size.raw)},
                              {"minimum", distribution_json(size.minimum)},
                              {"raw_histogram", histogram_json(size.raw_histogram)},

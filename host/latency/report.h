@@ -23,6 +23,7 @@ struct BlockSizeResult {
     std::size_t frames = 0;
     std::uint64_t blocks = 0;  ///< of a pass
     std::uint64_t passes = 0;
+    std::uint64_t late = 0;  ///< longer than they last by the wall clock, of all passes
     Distribution raw, minimum;
     ShareHistogram raw_histogram, minimum_histogram;
 };

@@ -67,7 +67,7 @@ void remember(ControllerMemory& memory, const ChannelMessage& message) JAWARI_RE
     if (controller >= nrpn_fine && controller <= rpn_coarse)
         remember_selection(channel, controller, message.data2);
     if (controller == reset_all_controllers) reset_controllers(channel);
-    channel.controllers[static_cast<std::size_t>(controller)] = static_cast<std::int8_t>(message.data2);
+    channel.controllers[static_cast<std::size_t>(controller)] = message.data2;
 }
 
 }  // namespace jawari::host

@@ -13,8 +13,8 @@
 namespace jawari::host {
 
 struct ChannelMemory {
-    std::array<std::int8_t, 128> controllers{};  ///< last values; -1: never sent
-    int bend = -1;                               ///< 14 bits; -1: never sent
+    std::array<int, 128> controllers{};  ///< last values; -1: never sent
+    int bend = -1;                       ///< 14 bits; -1: never sent
     int pressure = -1;
     /// Coarse and fine values of RPN 0 to 2 and of RPN 6 (an MPE zone, on its manager); -1: never sent.
     std::array<int, 7> registered_coarse{}, registered_fine{};

@@ -12,6 +12,14 @@ namespace {
 /// 1 in the highest bit: something was asked for.
 constexpr std::uint32_t asked_bit = 1U << 31U;
 
+constexpr double most_gain = 1e6;
+
+bool is_in_range(const LiveCommand& command) {
+    if (command.channel < -1 || command.channel >= static_cast<int>(midi_channel_count)) return false;
+    const ParameterDeclaration& parameter = declaration_of(command.parameter);
+    return command.value >= parameter.low && command.value <= parameter.high;
+}
+
 std::unique_ptr<LiveInstrument> make_live(const SharedInstrument& loaded, const LiveSettings& settings) {
     auto live = std::make_unique<LiveInstrument>();
     live->loaded = loaded;
@@ -89,6 +97,8 @@ bool LivePlayer::publish(const SharedInstrument& instrument) {
 
 bool LivePlayer::send(const LiveCommand& command) {
     using Kind = LiveCommand::Kind;
+    if (command.kind == Kind::SetParameter && !is_in_range(command)) return false;
+    if (command.kind == Kind::SetGain && !(command.value >= 0 && command.value <= most_gain)) return false;
     const bool plain =
         command.kind == Kind::SetParameter || command.kind == Kind::SetGain || command.kind == Kind::Panic;
     if (!plain) return false;

@@ -45,7 +45,7 @@ class LivePlayer {
     /// over. False if too many changes wait for the audio thread: collect() and try again.
     bool publish(const SharedInstrument& instrument);
 
-    /// SetParameter, SetGain or Panic. False if the queue is full.
+    /// SetParameter, SetGain (0 to 1e6) or Panic. False if the queue is full, or a value is out of its range.
     bool send(const LiveCommand& command);
 
     /// What is played from the next block on goes into the ring, until stop_capture(), the end of the player,

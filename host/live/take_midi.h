@@ -32,7 +32,7 @@ class TakeMidi {
     ~TakeMidi();
 
     /// In order of frames.
-    void add(const CapturedMessage& message);
+    void add(const CapturedMessage& captured);
     /// Writes what was added, and that the piece lasts until `end_frame`: afterwards the file is whole.
     MaybeError update(std::uint64_t end_frame);
     MaybeError close(std::uint64_t end_frame);

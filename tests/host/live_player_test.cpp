@@ -384,6 +384,21 @@ TEST(LivePlayer, FullQueuesAreCounted) {
     EXPECT_FALSE(player.stop_capture());
 }
 
+TEST(LivePlayer, RefusesCommandsOutOfRange) {
+    LivePlayer player(live_settings());
+    using Kind = LiveCommand::Kind;
+    for (const double value : {-0.1, 1.1, std::nan("")})
+        EXPECT_FALSE(
+            player.send({.kind = Kind::SetParameter, .parameter = ParameterId::PalmMute, .value = value}));
+    EXPECT_FALSE(player.send(
+        {.kind = Kind::SetParameter, .parameter = ParameterId::PalmMute, .channel = 16, .value = 0.5}));
+    for (const double value : {-1.0, 1e7, std::nan("")})
+        EXPECT_FALSE(player.send({.kind = Kind::SetGain, .value = value}));
+    EXPECT_FALSE(player.send({.kind = Kind::Publish}));
+    EXPECT_FALSE(player.send({.kind = Kind::StartCapture}));
+    EXPECT_TRUE(player.send({.kind = Kind::SetParameter, .parameter = ParameterId::PalmMute, .value = 0.5}));
+}
+
 TEST(LivePlayer, PlaysWithoutAnInstrument) {
     LivePlayer player(live_settings());
     MidiPort& port = *player.add_port();
