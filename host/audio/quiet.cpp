@@ -13,9 +13,8 @@
 
 namespace jawari::host {
 
-QuietStandardError::QuietStandardError() {
+QuietStandardError::QuietStandardError() : collected_(memfd_create("jawari-quiet", MFD_CLOEXEC)) {
     std::fflush(stderr);
-    collected_ = memfd_create("jawari-quiet", MFD_CLOEXEC);
     if (collected_ < 0) return;
     saved_ = dup(STDERR_FILENO);
     if (saved_ >= 0) dup2(collected_, STDERR_FILENO);
@@ -37,8 +36,8 @@ std::string QuietStandardError::text() const {
     return text;
 }
 
-bool QuietStandardError::mentions(std::string_view wanted) const {
-    return text().find(wanted) != std::string::npos;
+bool QuietStandardError::mentions(std::string_view part) const {
+    return text().find(part) != std::string::npos;
 }
 
 std::string QuietStandardError::first_line() const {

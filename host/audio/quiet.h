@@ -17,8 +17,8 @@ class QuietStandardError {
 
     void restore();
 
-    /// Whether the text was written so far.
-    [[nodiscard]] bool mentions(std::string_view text) const;
+    /// Whether that was written so far.
+    [[nodiscard]] bool mentions(std::string_view part) const;
 
     /// The first line with letters in it that was written so far, printable; empty if there is none.
     [[nodiscard]] std::string first_line() const;
