@@ -54,8 +54,8 @@ void moved_by_held(std::size_t n, double lag, const FlightModel& flight, const d
 
 /// cos and sin of an angle's multiples, eight apart in every lane.
 struct Turns {
-    HWY_ALIGN double cosine[lane_padding];
-    HWY_ALIGN double sine[lane_padding];
+    HWY_ALIGN double cosine[lane_padding] = {};
+    HWY_ALIGN double sine[lane_padding] = {};
     double cosine_eight = 1, sine_eight = 0;
 };
 

@@ -29,7 +29,7 @@ void prefer(std::optional<T>& own, const std::optional<T>& other) {
 
 /// A text that is one of some words.
 std::string word(ObjectReader& reader, std::string_view key, const std::vector<std::string>& allowed) {
-    const std::string text = reader.text(key);
+    std::string text = reader.text(key);
     for (const std::string& each : allowed)
         if (each == text) return text;
     reader.problems().add(reader.path_of(key), quoted(text), join(allowed));
@@ -42,7 +42,7 @@ std::vector<std::string> with_auto(std::vector<std::string> words) {
 }
 
 std::string name(ObjectReader& reader, std::string_view key) {
-    const std::string text = reader.text(key);
+    std::string text = reader.text(key);
     if (text.empty()) reader.problems().add(reader.path_of(key), quoted(text), "a name");
     return text;
 }
