@@ -29,19 +29,27 @@ Error malformed(const std::string& what) {
     return {ExitCode::Usage, "OSC: " + what};
 }
 
-std::optional<VerbValue> value_of(lo_type type, const lo_arg& argument) {
+/// liblo leaves arguments where they lie in the packet, eight-byte numbers too, at any multiple of four.
+template <class T>
+T number_at(const void* argument) {
+    T value{};
+    std::memcpy(&value, argument, sizeof value);
+    return value;
+}
+
+std::optional<VerbValue> value_of(lo_type type, const void* argument) {
     switch (type) {
         case LO_INT32:
-            return static_cast<double>(argument.i);
+            return static_cast<double>(number_at<std::int32_t>(argument));
         case LO_INT64:
-            return static_cast<double>(argument.h);
+            return static_cast<double>(number_at<std::int64_t>(argument));
         case LO_FLOAT:
-            return static_cast<double>(argument.f);
+            return static_cast<double>(number_at<float>(argument));
         case LO_DOUBLE:
-            return argument.d;
+            return number_at<double>(argument);
         case LO_STRING:
         case LO_SYMBOL:
-            return std::string(&argument.s);
+            return std::string(static_cast<const char*>(argument));
         case LO_TRUE:
             return 1.0;
         case LO_FALSE:
@@ -72,7 +80,7 @@ MaybeError decode_message(std::span<const char> packet, std::vector<OscMessage>&
     lo_arg** arguments = lo_message_get_argv(message.get());
     const int count = lo_message_get_argc(message.get());
     for (int i = 0; i < count; ++i) {
-        auto value = value_of(static_cast<lo_type>(types[i]), *arguments[i]);
+        auto value = value_of(static_cast<lo_type>(types[i]), arguments[i]);
         if (!value) return malformed(std::string("arguments of the type ") + types[i] + " mean nothing here");
         result.arguments.push_back(std::move(*value));
     }
