@@ -61,7 +61,7 @@ fuzz() {
         local corpus=$logs/corpus_$name
         mkdir -p "$corpus"
         echo "-- $name"
-        "$target" -max_total_time=10 -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 -verbosity=0 \
+        "$target" -max_total_time=10 -timeout=25 -rss_limit_mb=2048 -print_final_stats=1 -verbosity=0 \
             -artifact_prefix="build/asan-ubsan/$name-" "$corpus" "build/asan-ubsan/seeds/$name" || return 1
     done
 }

@@ -13,7 +13,7 @@ namespace {
 using namespace jawari;
 
 constexpr double output_rate_hz = 48000;
-constexpr double largest_cost = 20000;  // modes x frets^2, so that an input takes milliseconds
+constexpr double largest_cost = 5000;  // modes x frets^2, so that an input takes milliseconds
 
 bool cheap(const InstrumentDescription& instrument) {
     const double frets = static_cast<double>(instrument.frets.count) + 1;
