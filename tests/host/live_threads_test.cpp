@@ -43,7 +43,9 @@ TEST(LiveThreads, AudioMidiControlAndRecorderTogether) {
     // This thread is the control thread.
     int published = 0;
     int recordings = 0;
-    for (int round = 0; round < 60; ++round) {
+    // However slow the machine, until enough has happened.
+    const auto enough = [&] { return published > 5 && player.statistics().notes > 10; };
+    for (int round = 0; round < 60 || (round < 6000 && !enough()); ++round) {
         if (player.publish(instruments[static_cast<std::size_t>(round) % 2])) ++published;
         player.send({.kind = LiveCommand::Kind::SetParameter,
                      .parameter = ParameterId::PalmMute,
@@ -56,6 +58,8 @@ TEST(LiveThreads, AudioMidiControlAndRecorderTogether) {
             auto recorder = LiveRecorder::start(player, settings);
             ASSERT_TRUE(recorder.ok());
             std::this_thread::sleep_for(std::chrono::milliseconds(30));
+            for (int wait = 0; wait < 2000 && recorder.value()->status().frames == 0; ++wait)
+                std::this_thread::sleep_for(std::chrono::milliseconds(10));
             EXPECT_FALSE(recorder.value()->stop());
             EXPECT_GT(recorder.value()->status().frames, 0U);
             ++recordings;
@@ -74,7 +78,7 @@ TEST(LiveThreads, AudioMidiControlAndRecorderTogether) {
     stop = true;
     for (std::thread& thread : threads) thread.join();
     EXPECT_GT(published, 5);
-    EXPECT_EQ(recordings, 3);
+    EXPECT_GE(recordings, 3);
     EXPECT_GT(player.statistics().messages, 100U);
     EXPECT_GT(player.statistics().notes, 10U);
 }
