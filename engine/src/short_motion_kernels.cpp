@@ -40,8 +40,7 @@ HWY_INLINE Vec finite_probe(Vec q, Vec v, Vec probe) {
     return hn::MulAdd(hn::Add(q, v), hn::Zero(Lanes()), probe);
 }
 
-// ------------------------------------------------------------------------------------------------ free
-// motion
+// ------------------------------------------------------------ free motion
 
 /// Moves `vectors` vectors of modes from k on through the frame and writes their velocity at each step.
 template <std::size_t vectors, bool forced>

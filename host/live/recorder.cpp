@@ -83,8 +83,7 @@ void LiveRecorder::note(const MaybeError& error) {
     if (!failure_) failure_ = error;
 }
 
-// ---------------------------------------------------------------------------------------------- writing
-// thread
+// ------------------------------------------------------------ writing thread
 
 void LiveRecorder::run() {
     auto updated = Clock::now();

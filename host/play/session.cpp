@@ -129,8 +129,7 @@ MaybeError Session::connect_midi() {
     return std::nullopt;
 }
 
-// --------------------------------------------------------------------------------------------- from time to
-// time
+// ------------------------------------------------------------ from time to time
 
 MaybeError Session::tick() {
     performance_->tick(steady_clock_ns());

@@ -90,8 +90,7 @@ Outcome<std::vector<RenderJob>> jobs_of(const RenderOptions& options) {
     return jobs;
 }
 
-// --------------------------------------------------------------------------------------------- what all
-// share
+// ------------------------------------------------------------ what all share
 
 Outcome<InstrumentSettings> instrument_settings(const RenderOptions& options) {
     InstrumentSettings settings;

@@ -73,8 +73,7 @@ struct ContactDescription {
     Side side = Side::Below;
 };
 
-// ---------------------------------------------------------------------------------------------- initial
-// state
+// ------------------------------------------------------------ initial state
 
 /// How the backward velocity v = (q_now - q_before)/h of the first step follows from the true initial state.
 enum class Start {
@@ -116,8 +115,7 @@ struct ProbeDescription {
     std::size_t contact = 0;  ///< for ContactForce: index into the string's contacts
 };
 
-// ---------------------------------------------------------------------------------------------- string and
-// scene
+// ------------------------------------------------------------ string and scene
 
 struct StringDescription {
     std::string name;
