@@ -24,7 +24,8 @@ PRESETS = ["bass-fretted", "bass-fretless", "guitar-steel", "guitar-electric", "
 EVENT_S = 0.6
 LIMIT = 2.0
 LEAST_EFFECT_DB = -50
-ATTACK_S = 0.005
+ATTACK_S = 0.005  # hammer-ons and pull-offs
+SLIDE_S = 0.1
 
 
 def pair_of_keys(name):
@@ -103,7 +104,7 @@ def legato_gestures(name):
         unchanged.note(begin, first, play.beats(2.4), 100)
         if label != "pull-off":
             changed.note(at, then, play.beats(1), 100)
-        yield label, changed, unchanged, ATTACK_S
+        yield label, changed, unchanged, SLIDE_S + 0.05 if label == "slide" else ATTACK_S
 
 
 def program_change(program, folder):
@@ -156,14 +157,14 @@ def check(program, name):
             if window_s == 0:
                 continue
             tag = label.replace(" ", "-").replace("'", "")
-            arguments = ("--set", "slide_time=0.1") if label == "slide" else ()
+            arguments = ("--set", f"slide_time={SLIDE_S}") if label == "slide" else ()
             sounds = [play.render(program, name, score, folder, f"{name}-{tag}-{i}", arguments=arguments) for i, score in enumerate((changed, unchanged))]
             begin, end = int((EVENT_S - 0.002) * play.RATE_HZ), int((EVENT_S + window_s) * play.RATE_HZ)
             # the neighbourhood is as long as a few periods: a ringing string's second difference has bursts
             neighbourhood = int((EVENT_S - 0.05) * play.RATE_HZ), int((EVENT_S + max(window_s, 0.05)) * play.RATE_HZ)
             worst = second_difference(sounds[0].mono)[begin:end].max()
             allowed = second_difference(sounds[1].mono)[slice(*neighbourhood)].max()
-            if window_s == ATTACK_S:
+            if label in ("hammer-on", "pull-off"):
                 allowed = max(allowed, second_difference(sounds[0].mono)[end:int((EVENT_S + 0.06) * play.RATE_HZ)].max())
             rows.append((name, label, worst / allowed, effect_db(*sounds)))
     return rows
