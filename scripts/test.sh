@@ -77,10 +77,10 @@ if $full; then
     stage "lint" scripts/lint.sh
     stage "other instruction sets" scripts/check_neon.sh
     # Oracles, soaks and pitches check numbers, which the release run has done; here only memory and threads are at stake.
-    stage "build (asan-ubsan)" build asan-ubsan jawari engine_tests host_tests rivals_tests play_tests jawari_fuzzers &&
+    stage "build (asan-ubsan)" build asan-ubsan jawari engine_tests host_tests thread_tests rivals_tests play_tests \
+        jawari_fuzzers &&
         tests asan-ubsan -LE 'peers|presets|examples|live' -E RenderPitch && stage "fuzzing" fuzz
-    # Threads exist in the program, and in live playing: the tests of both.
-    stage "build (tsan)" build tsan jawari host_tests && tests tsan -R 'Program|Threads'
+    stage "build (tsan)" build tsan jawari thread_tests && tests tsan -L threads
 fi
 
 printf '\n== Summary (%d min %d s)\n' $((SECONDS / 60)) $((SECONDS % 60))

@@ -9,15 +9,12 @@
 #include "jawari/step_coefficients.h"
 #include "kernels.h"
 #include "response.h"
+#include "square.h"
 #include "static_equilibrium.h"
 #include "validate.h"
 
 namespace jawari {
 namespace {
-
-double square(double x) {
-    return x * x;
-}
 
 /// Below this share of the largest Delassus diagonal a contact cannot move the string (it sits on an end).
 constexpr double negligible_mobility = 1e-12;

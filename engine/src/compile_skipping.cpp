@@ -8,13 +8,10 @@
 #include "kernels.h"
 #include "response.h"
 #include "short_frame.h"
+#include "square.h"
 
 namespace jawari {
 namespace {
-
-double square(double x) {
-    return x * x;
-}
 
 /// The size of such a group.
 constexpr std::size_t contacts_per_group = 16;

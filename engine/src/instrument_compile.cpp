@@ -19,13 +19,10 @@
 #include "jawari/instrument_model.h"
 #include "kernels.h"
 #include "skipping_kernels.h"
+#include "square.h"
 
 namespace jawari {
 namespace {
-
-double square(double x) {
-    return x * x;
-}
 
 // ---------------------------------------------------------------------------------------------- one stop
 

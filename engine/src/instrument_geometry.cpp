@@ -1,14 +1,11 @@
 #include "instrument_geometry.h"
+#include "square.h"
 
 #include <cmath>
 #include <numbers>
 
 namespace jawari {
 namespace {
-
-double square(double x) {
-    return x * x;
-}
 
 bool uses_tuning(const InstrumentDescription& instrument) {
     return !instrument.note_frequency_hz.empty();

@@ -2,15 +2,12 @@
 
 #include <cmath>
 #include <numbers>
+#include "square.h"
 
 namespace jawari {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-double square(double x) {
-    return x * x;
-}
 
 /// f_k for real k, so that a wavenumber can be found for any frequency.
 double stretched_frequency(const PhysicalModes& modes, double f0, double k) {

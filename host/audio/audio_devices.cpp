@@ -30,7 +30,7 @@ std::optional<std::size_t> whole_number(const std::string& text) {
 std::string numbered(const std::vector<std::string>& names) {
     std::vector<std::string> items;
     for (std::size_t i = 0; i < names.size(); ++i)
-        items.push_back(std::to_string(i) + " " + quoted(names[i]));
+        items.push_back(std::to_string(i) + " " + in_quotes(names[i]));
     return items.empty() ? "none is there" : join(items);
 }
 
@@ -83,7 +83,7 @@ Outcome<std::size_t> match_name(const std::vector<std::string>& names, const std
     if (parts.size() == 1) return parts.front();
     const std::string problem =
         parts.empty() ? "no " + what + " has that number or name" : "more than one " + what;
-    return Error{ExitCode::Device, quoted(wanted) + ": " + problem + " (" + numbered(names) + ")"};
+    return Error{ExitCode::Device, in_quotes(wanted) + ": " + problem + " (" + numbered(names) + ")"};
 }
 
 unsigned int choose_rate(const AudioDevice& device, unsigned int wanted_hz) {

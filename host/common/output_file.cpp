@@ -17,10 +17,14 @@ namespace {
 constexpr std::size_t buffer_bytes = std::size_t{1} << 18U;
 
 /// The mode a new file would get from open(); mkstemp() is stricter than users expect of an output file.
+/// Asked once: the mask can only be read by setting it, which two threads must not do at a time.
 mode_t ordinary_mode() {
-    const mode_t mask = umask(0);
-    umask(mask);
-    return static_cast<mode_t>(0666U & ~mask);
+    static const mode_t mode = [] {
+        const mode_t mask = umask(0);
+        umask(mask);
+        return static_cast<mode_t>(0666U & ~mask);
+    }();
+    return mode;
 }
 
 /// Follows a symbolic link, also one whose target does not exist yet.
@@ -128,6 +132,11 @@ void OutputFile::discard() noexcept {
     if (!temporary_path_.empty()) unlink(temporary_path_.c_str());
     temporary_path_.clear();
     guard_.forget();
+}
+
+bool is_folder(const std::string& path) {
+    std::error_code ignored;
+    return path.ends_with('/') || std::filesystem::is_directory(path, ignored);
 }
 
 }  // namespace jawari::host

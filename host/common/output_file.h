@@ -50,4 +50,7 @@ class OutputFile {
     std::string buffer_;
 };
 
+/// An existing folder, or a name that ends with a slash.
+bool is_folder(const std::string& path);
+
 }  // namespace jawari::host

@@ -1,7 +1,9 @@
 // Numbers and foreign text as they appear in messages and files.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,10 +25,18 @@ std::optional<double> parse_number(std::string_view text);
 std::string printable(std::string_view text);
 
 /// printable() in double quotes, shortened with "..." beyond `longest` bytes.
-std::string quoted(std::string_view text, std::size_t longest = 60);
+std::string in_quotes(std::string_view text, std::size_t longest = 60);
 
 /// ASCII letters only.
 std::string lower_case(std::string_view text);
+
+/// As printf writes it, at most 400 bytes of it.
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+    std::array<char, 401> text{};
+    std::snprintf(text.data(), text.size(), format, values...);
+    return text.data();
+}
 
 /// `a, b, c`
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");

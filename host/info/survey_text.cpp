@@ -14,13 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-template <class... Values>
-std::string line(const char* format, Values... values) {
-    std::array<char, 400> text{};
-    std::snprintf(text.data(), text.size(), format, values...);
-    return text.data();
-}
-
 std::string dump(const Json& json) {
     // Names may hold any bytes; those that are no UTF-8 become replacement characters.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -70,8 +63,8 @@ const char* quantity_text(PickupQuantity quantity) {
 }
 
 std::string place_text(const StringPlace& place) {
-    if (place.share > 0) return line("share %g", place.share);
-    return line("%g m", place.from_bridge_m);
+    if (place.share > 0) return formatted("share %g", place.share);
+    return formatted("%g m", place.from_bridge_m);
 }
 
 Json place_json(const StringPlace& place) {
@@ -139,10 +132,11 @@ std::string strings_table(const PresetSurvey& survey) {
         "string        note     open Hz  length m  tension N      B       frets  to    modes  contacts\n";
     for (const StringSurvey& string : survey.strings) {
         const std::string course = string.course ? " (" + std::to_string(*string.course) + ")" : "";
-        text += line("  %-10s  %-4s %11.3f %9.4g %10.4g %9.3g %7zu  %-4s %6zu %9zu\n",
-                     (printable(string.name) + course).c_str(), note_name(string.open_note).c_str(),
-                     string.open_frequency_hz, string.length_m, string.tension_N, string.inharmonicity,
-                     string.frets, note_name(string.highest_note).c_str(), string.modes, string.contacts);
+        text +=
+            formatted("  %-10s  %-4s %11.3f %9.4g %10.4g %9.3g %7zu  %-4s %6zu %9zu\n",
+                      (printable(string.name) + course).c_str(), note_name(string.open_note).c_str(),
+                      string.open_frequency_hz, string.length_m, string.tension_N, string.inharmonicity,
+                      string.frets, note_name(string.highest_note).c_str(), string.modes, string.contacts);
     }
     return text;
 }
@@ -151,7 +145,7 @@ std::string players_text(const InstrumentDescription& instrument) {
     std::string text = "articulations";
     for (std::size_t i = 0; i < instrument.exciters.size(); ++i) {
         const ExciterDescription& exciter = instrument.exciters[i];
-        text += line("\n  %zu  ", i + 1) + printable(exciter.name) + ", " + kind_text(exciter);
+        text += formatted("\n  %zu  ", i + 1) + printable(exciter.name) + ", " + kind_text(exciter);
         if (!std::holds_alternative<TangentDescription>(exciter.body))
             text += ", " + place_text(exciter.place);
     }
@@ -160,7 +154,7 @@ std::string players_text(const InstrumentDescription& instrument) {
         text += "\n  " + std::string(quantity_text(pickup.quantity));
         if (pickup.quantity != PickupQuantity::BridgeForce) text += ", " + place_text(pickup.place);
     }
-    if (!instrument.body.empty()) text += line("\nbody\n  %zu resonances", instrument.body.size());
+    if (!instrument.body.empty()) text += formatted("\nbody\n  %zu resonances", instrument.body.size());
     return text + "\n";
 }
 
@@ -168,8 +162,8 @@ std::string parameters_table() {
     std::string text = "parameters (--set, MIDI map)\n";
     for (const ParameterDeclaration& parameter : parameter_table()) {
         const std::string unit = parameter.unit == "1" ? "" : " " + std::string(parameter.unit);
-        text += line("  %-16s %-24s ", std::string(parameter.key).c_str(),
-                     (shortest(parameter.low) + " to " + shortest(parameter.high) + unit).c_str()) +
+        text += formatted("  %-16s %-24s ", std::string(parameter.key).c_str(),
+                          (shortest(parameter.low) + " to " + shortest(parameter.high) + unit).c_str()) +
                 std::string(parameter.text) + "\n";
     }
     return text;
@@ -182,12 +176,12 @@ std::string survey_text(const PresetSurvey& survey) {
     std::string text = printable(instrument.name) + " (" + printable(survey.preset.file) + "), played as a " +
                        (instrument.play == PlayMode::Guitar ? "guitar: one course a channel" : "keyboard") +
                        "\n" + strings_table(survey) + players_text(instrument);
-    text += line("quality %s\n  modes up to %g Hz, %g contact steps a second\n", survey.quality.c_str(),
-                 instrument.quality.mode_limit_hz, survey.contact_rate_hz);
-    text += line("cost\n  %zu stopped strings, compiled in %.3g CPU s\n", survey.stopped_strings,
-                 survey.cpu_compile_s);
-    text +=
-        line("  all strings at full velocity: %.3g CPU s for their first second\n", survey.cpu_all_strings);
+    text += formatted("quality %s\n  modes up to %g Hz, %g contact steps a second\n", survey.quality.c_str(),
+                      instrument.quality.mode_limit_hz, survey.contact_rate_hz);
+    text += formatted("cost\n  %zu stopped strings, compiled in %.3g CPU s\n", survey.stopped_strings,
+                      survey.cpu_compile_s);
+    text += formatted("  all strings at full velocity: %.3g CPU s for their first second\n",
+                      survey.cpu_all_strings);
     return text + parameters_table();
 }
 
@@ -217,8 +211,8 @@ std::string list_text(const std::vector<ListedPreset>& presets) {
     std::string text;
     for (const ListedPreset& preset : presets) {
         const std::string number = preset.program >= 0 ? std::to_string(preset.program) : "";
-        text += line("%-16s %3s  ", printable(preset.named.name).c_str(), number.c_str());
-        text += preset.problem.empty() ? printable(preset.title) + line(", %zu strings", preset.strings)
+        text += formatted("%-16s %3s  ", printable(preset.named.name).c_str(), number.c_str());
+        text += preset.problem.empty() ? printable(preset.title) + formatted(", %zu strings", preset.strings)
                                        : "cannot be read: " + printable(preset.problem);
         text += ", " + origin_text(preset.named.origin) +
                 (preset.named.path.empty() ? "" : " " + printable(preset.named.path)) + "\n";

@@ -10,7 +10,7 @@ struct Describe {
     std::string operator()(Null) const { return "null"; }
     std::string operator()(bool value) const { return value ? "true" : "false"; }
     std::string operator()(double value) const { return shortest(value); }
-    std::string operator()(const std::string& value) const { return quoted(value); }
+    std::string operator()(const std::string& value) const { return in_quotes(value); }
     std::string operator()(const Array& value) const {
         return value.empty() ? "an empty array" : "an array of " + std::to_string(value.size());
     }

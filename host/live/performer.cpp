@@ -11,8 +11,6 @@ namespace jawari::host {
 
 namespace {
 
-/// The most events that one message comes to; see MidiActions.
-constexpr std::size_t most_events_per_message = std::tuple_size_v<decltype(MidiActions::events)>;
 /// Of a block; more wait for the next.
 constexpr std::size_t most_events = 16384;
 

@@ -15,9 +15,6 @@ namespace {
 constexpr double stage_fade_s = 0.05;
 constexpr double gain_time_s = 0.01;
 
-/// The most events that one message comes to.
-constexpr std::size_t most_events_per_message = std::tuple_size_v<decltype(MidiActions::events)>;
-
 bool is_silent(const InstrumentState& state) {
     return !state.busy && !state.body.ringing && at_rest(state);
 }

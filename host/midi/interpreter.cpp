@@ -10,10 +10,6 @@ namespace {
 
 using Type = InstrumentEventType;
 
-MidiChannel& channel_state(MidiInterpreter& interpreter, int channel) {
-    return interpreter.channels[static_cast<std::size_t>(channel)];
-}
-
 bool in_guitar(const InterpreterSettings& settings, int channel) {
     return settings.guitar_channel >= 0 && channel >= settings.guitar_channel &&
            channel < settings.guitar_channel + settings.guitar_strings;

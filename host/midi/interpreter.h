@@ -66,6 +66,9 @@ struct MidiActions {
     ProgramRequest program;
 };
 
+/// The most events that one message comes to.
+inline constexpr std::size_t most_events_per_message = std::tuple_size_v<decltype(MidiActions::events)>;
+
 MidiInterpreter make_interpreter(const InterpreterSettings& settings);
 
 /// Replaces `actions`. The events' frames are not set. Messages with bytes out of range come to nothing.

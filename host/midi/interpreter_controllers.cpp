@@ -10,10 +10,6 @@ using Type = InstrumentEventType;
 
 constexpr double largest_bend_semitones = 96;
 
-MidiChannel& channel_state(MidiInterpreter& interpreter, int channel) {
-    return interpreter.channels[static_cast<std::size_t>(channel)];
-}
-
 double own_bend(const MidiChannel& channel) {
     return (2 * control_travel(channel.bend, 14) - 1) * channel.bend_range_semitones +
            channel.fine_tuning_semitones;

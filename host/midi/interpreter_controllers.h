@@ -5,6 +5,10 @@
 
 namespace jawari::host {
 
+inline MidiChannel& channel_state(MidiInterpreter& interpreter, int channel) JAWARI_REALTIME {
+    return interpreter.channels[static_cast<std::size_t>(channel)];
+}
+
 void add_event(MidiActions& actions, const InstrumentEvent& event) JAWARI_REALTIME;
 
 /// The channel, and the members of the zone that it manages.

@@ -15,10 +15,6 @@ constexpr int bend_sensitivity = 0;
 constexpr int fine_tuning = 1;
 constexpr int mpe_configuration = 6;
 
-MidiChannel& channel_state(MidiInterpreter& interpreter, int channel) {
-    return interpreter.channels[static_cast<std::size_t>(channel)];
-}
-
 /// A member's range is that of all members of its zone (M1-100-UM).
 void set_bend_range(MidiInterpreter& interpreter, int channel, double semitones, MidiActions& actions) {
     const double range = std::clamp(semitones, 0.0, 96.0);

@@ -72,7 +72,7 @@ const ParameterDeclaration* read_parameter(ObjectReader& reader) {
         if (each.key == key) return &each;
         keys.emplace_back(each.key);
     }
-    reader.problems().add(reader.path_of("parameter"), quoted(key), join(keys) + ", none");
+    reader.problems().add(reader.path_of("parameter"), in_quotes(key), join(keys) + ", none");
     return nullptr;
 }
 

@@ -113,17 +113,17 @@ void MidiInputs::connect_new(const std::vector<std::string>& names) {
         MidiPort* port = take_port();
         if (port == nullptr) {
             refused_.push_back(name);
-            report_("warning: midi: " + quoted(name) + " is left out: too many inputs");
+            report_("warning: midi: " + in_quotes(name) + " is left out: too many inputs");
             continue;
         }
         auto receiver = MidiReceiver::connect(system_, index, name, *port);
         if (receiver) {
             receivers_.push_back(std::move(receiver.value()));
-            report_("midi: " + system_ + ": connected to " + quoted(name));
+            report_("midi: " + system_ + ": connected to " + in_quotes(name));
         } else {
             spare_ports_.push_back(port);
             refused_.push_back(name);
-            report_("warning: midi: " + quoted(name) + ": " + receiver.error().message);
+            report_("warning: midi: " + in_quotes(name) + ": " + receiver.error().message);
         }
     }
 }
@@ -132,7 +132,7 @@ void MidiInputs::drop_vanished(const std::vector<std::string>& names) {
     const auto vanished = [&](const auto& receiver) { return !contains(names, receiver->name()); };
     for (auto& receiver : receivers_) {
         if (!vanished(receiver)) continue;
-        report_("warning: midi: " + quoted(receiver->name()) + " is gone; its notes are released");
+        report_("warning: midi: " + in_quotes(receiver->name()) + " is gone; its notes are released");
         spare_ports_.push_back(&receiver->port());
         receiver.reset();
     }

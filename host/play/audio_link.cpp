@@ -53,8 +53,8 @@ MaybeError AudioLink::open() {
 }
 
 void AudioLink::describe() {
-    report_("audio: " + facts_.system + ": " + quoted(facts_.device) + ", " + std::to_string(facts_.rate_hz) +
-            " Hz, blocks of " + std::to_string(facts_.frames) + " frames (" +
+    report_("audio: " + facts_.system + ": " + in_quotes(facts_.device) + ", " +
+            std::to_string(facts_.rate_hz) + " Hz, blocks of " + std::to_string(facts_.frames) + " frames (" +
             milliseconds(facts_.frames, facts_.rate_hz) + ")");
     if (facts_.rate_hz != wish_.rate_hz)
         report_("notice: audio: the device runs at " + std::to_string(facts_.rate_hz) + " Hz, not at " +

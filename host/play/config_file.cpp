@@ -32,7 +32,7 @@ std::string word(ObjectReader& reader, std::string_view key, const std::vector<s
     std::string text = reader.text(key);
     for (const std::string& each : allowed)
         if (each == text) return text;
-    reader.problems().add(reader.path_of(key), quoted(text), join(allowed));
+    reader.problems().add(reader.path_of(key), in_quotes(text), join(allowed));
     return text;
 }
 
@@ -43,7 +43,7 @@ std::vector<std::string> with_auto(std::vector<std::string> words) {
 
 std::string name(ObjectReader& reader, std::string_view key) {
     std::string text = reader.text(key);
-    if (text.empty()) reader.problems().add(reader.path_of(key), quoted(text), "a name");
+    if (text.empty()) reader.problems().add(reader.path_of(key), in_quotes(text), "a name");
     return text;
 }
 

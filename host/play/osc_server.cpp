@@ -53,7 +53,8 @@ Outcome<OscServer> OscServer::open(const std::string& host, std::uint16_t port) 
     address.sin_family = AF_INET;
     address.sin_port = htons(port);
     if (inet_pton(AF_INET, host.c_str(), &address.sin_addr) != 1)
-        return usage_error("--osc-host", quoted(host), "an IPv4 address like 127.0.0.1, or 0.0.0.0 for all");
+        return usage_error("--osc-host", in_quotes(host),
+                           "an IPv4 address like 127.0.0.1, or 0.0.0.0 for all");
     const bool local = (ntohl(address.sin_addr.s_addr) >> 24U) == 127;
     OscServer server(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0), local);
     if (server.socket_ < 0 ||
@@ -75,7 +76,7 @@ Outcome<VerbCall> OscServer::call_of(const std::string& verb, const std::vector<
     for (const VerbValue& value : call.value().arguments) {
         const auto* text = std::get_if<std::string>(&value);
         if (text != nullptr && text->find('/') != std::string::npos)
-            return usage_error(verb, quoted(*text), "over the network a name without /");
+            return usage_error(verb, in_quotes(*text), "over the network a name without /");
     }
     return call;
 }

@@ -181,7 +181,7 @@ MaybeError Session::watch_audio(double now) {
     if (audio_.is_open()) {
         if (audio_.check(now) != StreamState::Lost) return std::nullopt;
         const std::string lost =
-            "audio: " + audio_.facts().system + ": " + quoted(audio_.facts().device) + " is lost";
+            "audio: " + audio_.facts().system + ": " + in_quotes(audio_.facts().device) + " is lost";
         if (!options_.retry.value_or(true)) return Error{ExitCode::Device, lost};
         say_("warning: " + lost + "; looking for it every second");
         // The JACK library does not find a new server while a client of the old one is left.

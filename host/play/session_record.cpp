@@ -12,7 +12,7 @@ namespace {
 
 std::string file_names(const RecordingSettings& settings) {
     const bool both = !settings.sound.empty() && !settings.midi.empty();
-    return quoted(settings.sound) + (both ? " and " + quoted(settings.midi) : "");
+    return in_quotes(settings.sound) + (both ? " and " + in_quotes(settings.midi) : "");
 }
 
 std::string seconds(std::uint64_t frames, double rate_hz) {
@@ -46,7 +46,7 @@ Outcome<std::string> Session::stop_recording() {
     if (failure) return *failure;
     std::string line = "recorded " + seconds(status.frames, recorded_.rate_hz) + ", " +
                        std::to_string(status.messages) + " MIDI messages, to " +
-                       (recorded_.sound.empty() ? quoted(recorded_.midi) : file_names(recorded_));
+                       (recorded_.sound.empty() ? in_quotes(recorded_.midi) : file_names(recorded_));
     if (status.lost_frames + status.lost_messages > 0)
         line += "; lost " + std::to_string(status.lost_frames) + " frames and " +
                 std::to_string(status.lost_messages) + " messages: the disk is too slow";
@@ -65,7 +65,8 @@ void Session::watch_recording() {
 
 Outcome<VerbReply> Session::record(const VerbCall& call) {
     if (text_of(call, 0) == "stop") {
-        if (call.arguments.size() > 1) return usage_error("record stop", quoted(text_of(call, 1)), "no file");
+        if (call.arguments.size() > 1)
+            return usage_error("record stop", in_quotes(text_of(call, 1)), "no file");
         if (!recorder_) return Error{ExitCode::Usage, "record stop: nothing is being recorded"};
         auto line = stop_recording();
         if (!line) return line.error();
@@ -77,10 +78,10 @@ Outcome<VerbReply> Session::record(const VerbCall& call) {
         const std::string& path = text_of(call, i);
         const bool is_midi = lower_case(path).ends_with(".mid");
         if (!is_midi && !lower_case(path).ends_with(".wav"))
-            return usage_error("record start", quoted(path), "names that end in .wav or .mid");
+            return usage_error("record start", in_quotes(path), "names that end in .wav or .mid");
         std::string& target = is_midi ? midi : sound;
         if (!target.empty())
-            return usage_error("record start", quoted(path), "one .wav and one .mid at most");
+            return usage_error("record start", in_quotes(path), "one .wav and one .mid at most");
         target = path;
     }
     if (sound.empty() && midi.empty())

@@ -48,7 +48,7 @@ VerbReply help(const VerbCall& call) {
     for (const Verb& verb : verb_table())
         if (wanted.empty() || verb.name == wanted)
             reply.lines.push_back(text("%-42s %s", usage_of(verb).c_str(), std::string(verb.help).c_str()));
-    if (reply.lines.empty()) reply.lines.push_back("no command " + quoted(wanted));
+    if (reply.lines.empty()) reply.lines.push_back("no command " + in_quotes(wanted));
     return reply;
 }
 
@@ -100,7 +100,7 @@ Outcome<VerbReply> Session::execute(const VerbCall& call) {
 
 Outcome<VerbReply> Session::set(const VerbCall& call) {
     const ParameterDeclaration* parameter = find_parameter(text_of(call, 0));
-    if (parameter == nullptr) return usage_error("set", quoted(text_of(call, 0)), join(parameter_keys()));
+    if (parameter == nullptr) return usage_error("set", in_quotes(text_of(call, 0)), join(parameter_keys()));
     const double value = number_of(call, 1);
     if (value < parameter->low || value > parameter->high)
         return usage_error("set " + std::string(parameter->key), shortest(value),
@@ -116,7 +116,7 @@ Outcome<VerbReply> Session::get(const VerbCall& call) const {
         reply.lines.push_back(with_unit(parameter, value));
         reply.values.emplace_back(parameter.key, value);
     }
-    if (reply.lines.empty()) return usage_error("get", quoted(text_of(call, 0)), join(parameter_keys()));
+    if (reply.lines.empty()) return usage_error("get", in_quotes(text_of(call, 0)), join(parameter_keys()));
     return reply;
 }
 

@@ -123,7 +123,7 @@ std::optional<VerbValue> checked(const VerbValue& value, Kind kind) {
 
 std::string spelled(const VerbValue& value) {
     const auto* text = std::get_if<std::string>(&value);
-    return text != nullptr ? quoted(*text) : shortest(std::get<double>(value));
+    return text != nullptr ? in_quotes(*text) : shortest(std::get<double>(value));
 }
 
 std::string verb_names() {
@@ -161,7 +161,7 @@ std::string usage_of(const Verb& verb) {
 
 Outcome<VerbCall> make_call(std::string_view name, const std::vector<VerbValue>& arguments) {
     const Verb* verb = find_verb(name);
-    if (verb == nullptr) return usage_error("command", quoted(name), verb_names());
+    if (verb == nullptr) return usage_error("command", in_quotes(name), verb_names());
     const auto rules = arguments_of(*verb);
     const auto required = static_cast<std::size_t>(
         std::count_if(rules.begin(), rules.end(), [](const ArgumentRule& rule) { return !rule.optional; }));

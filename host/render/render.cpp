@@ -28,11 +28,6 @@ namespace jawari::host {
 
 namespace {
 
-bool is_folder(const std::string& path) {
-    std::error_code ignored;
-    return path.ends_with('/') || std::filesystem::is_directory(path, ignored);
-}
-
 // ------------------------------------------------------------------------------------------ the command line
 
 MaybeError check_several(const RenderOptions& options) {

@@ -135,13 +135,6 @@ Outcome<std::vector<SharedInstrument>> load_instruments(const Score& score, Inst
     return instruments;
 }
 
-template <class... Values>
-std::string line(const char* format, Values... values) {
-    std::array<char, 200> text{};
-    std::snprintf(text.data(), text.size(), format, values...);
-    return text.data();
-}
-
 void add_notices(const Score& score, const Ensemble& ensemble, const RenderContext& context,
                  RenderedJob& result) {
     for (const EnsemblePart& part : ensemble.parts) {
@@ -151,8 +144,9 @@ void add_notices(const Score& score, const Ensemble& ensemble, const RenderConte
                                       ": the law signorini ignores the restitution of the frets");
     }
     if (score.silent_notes > 0)
-        result.messages.push_back(line("notice: %llu notes are silent: drums, or programs without strings",
-                                       static_cast<unsigned long long>(score.silent_notes)));
+        result.messages.push_back(
+            formatted("notice: %llu notes are silent: drums, or programs without strings",
+                      static_cast<unsigned long long>(score.silent_notes)));
     if (score.program_changes > 0 && !context.rules.choose)
         result.messages.emplace_back("notice: program changes do nothing; --preset auto follows them");
 }
@@ -164,22 +158,22 @@ void add_level_messages(const RenderJob& job, const RenderOptions& options, cons
     const bool kept = options.format == SampleFormat::Float;
     if (score.clipped > 0) {
         const double peak = *peak_dbfs(result.stats);
-        result.messages.push_back("warning: " + name + ": " +
-                                  line("%llu samples beyond full scale %s, peak %+.1f dBFS; use --gain %.0f",
-                                       static_cast<unsigned long long>(score.clipped),
-                                       kept ? "kept" : "clipped", peak,
-                                       std::floor(options.gain_db - peak - 1)));
+        result.messages.push_back(
+            "warning: " + name + ": " +
+            formatted("%llu samples beyond full scale %s, peak %+.1f dBFS; use --gain %.0f",
+                      static_cast<unsigned long long>(score.clipped), kept ? "kept" : "clipped", peak,
+                      std::floor(options.gain_db - peak - 1)));
     }
     if (score.limited_frames > 0)
         result.messages.push_back("notice: " + name + ": " +
-                                  line("the limiter lowered %.3g s of the sound, by up to %.1f dB",
-                                       static_cast<double>(score.limited_frames) / options.rate_hz,
-                                       -20 * std::log10(score.least_gain)));
+                                  formatted("the limiter lowered %.3g s of the sound, by up to %.1f dB",
+                                            static_cast<double>(score.limited_frames) / options.rate_hz,
+                                            -20 * std::log10(score.least_gain)));
     if (outputs.stems && outputs.stems->clipped() > 0)
         result.messages.push_back("warning: " + printable(options.stems) + ": " +
-                                  line("%llu samples of stems beyond full scale %s",
-                                       static_cast<unsigned long long>(outputs.stems->clipped()),
-                                       kept ? "kept" : "clipped"));
+                                  formatted("%llu samples of stems beyond full scale %s",
+                                            static_cast<unsigned long long>(outputs.stems->clipped()),
+                                            kept ? "kept" : "clipped"));
 }
 
 /// Everything is written before the first file gets its name.

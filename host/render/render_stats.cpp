@@ -26,13 +26,6 @@ unsigned long long count(std::uint64_t value) {
     return value;
 }
 
-template <class... Values>
-std::string line(const char* format, Values... values) {
-    std::array<char, 400> text{};
-    std::snprintf(text.data(), text.size(), format, values...);
-    return text.data();
-}
-
 InstrumentCounters all_notes(const RenderStats& stats) {
     InstrumentCounters sum;
     for (const PartStats& part : stats.parts) {
@@ -143,19 +136,20 @@ std::string stats_json(const RenderStats& stats) {
 std::string stats_summary(const RenderStats& stats) {
     const InstrumentCounters notes = all_notes(stats);
     const Counters contacts = all_contacts(stats);
-    std::string text = line("sound     %g s at %g Hz", sound_s(stats), stats.output_rate_hz);
-    if (const auto peak = peak_dbfs(stats)) text += line(", peak %.1f dBFS", *peak);
+    std::string text = formatted("sound     %g s at %g Hz", sound_s(stats), stats.output_rate_hz);
+    if (const auto peak = peak_dbfs(stats)) text += formatted(", peak %.1f dBFS", *peak);
     text += "\n" + parts_line(stats);
-    text += line("notes     %llu played, %llu ignored, %llu taken from their string by another\n",
-                 count(notes.notes), count(notes.ignored_notes), count(notes.stolen_notes));
-    text += line("contact   %llu impulses in %llu steps, worst penetration %.3g m\n",
-                 count(contacts.impulses), count(contacts.steps), contacts.worst_penetration_m);
+    text += formatted("notes     %llu played, %llu ignored, %llu taken from their string by another\n",
+                      count(notes.notes), count(notes.ignored_notes), count(notes.stolen_notes));
+    text += formatted("contact   %llu impulses in %llu steps, worst penetration %.3g m\n",
+                      count(contacts.impulses), count(contacts.steps), contacts.worst_penetration_m);
     if (contacts.truncated_solves + contacts.nonfinite_resets > 0) {
-        text += line("caution   %llu truncated solves, %llu resets of a state that was not finite\n",
-                     count(contacts.truncated_solves), count(contacts.nonfinite_resets));
+        text += formatted("caution   %llu truncated solves, %llu resets of a state that was not finite\n",
+                          count(contacts.truncated_solves), count(contacts.nonfinite_resets));
     }
-    text += line("CPU       %.3g s compile, %.3g s render", stats.cpu_compile_s, stats.score.render_cpu_s);
-    if (const auto factor = real_time_factor(stats)) text += line(", %.3g times real time", *factor);
+    text +=
+        formatted("CPU       %.3g s compile, %.3g s render", stats.cpu_compile_s, stats.score.render_cpu_s);
+    if (const auto factor = real_time_factor(stats)) text += formatted(", %.3g times real time", *factor);
     return text + "\n";
 }
 

@@ -5,14 +5,11 @@
 #include <span>
 #include <utility>
 
+#include "common/output_file.h"
+
 namespace jawari::host {
 
 namespace {
-
-bool is_folder(const std::string& path) {
-    std::error_code ignored;
-    return path.ends_with('/') || std::filesystem::is_directory(path, ignored);
-}
 
 bool is_plain(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "common/text.h"
 #include "scene/words.h"
 #include "simulate/stats.h"
 
@@ -83,16 +84,9 @@ void add_totals(Json& json, const SimulationStats& stats) {
     json["final_energy_J"] = last;
 }
 
-template <class... Values>
-std::string line(const char* format, Values... values) {
-    std::array<char, 400> text{};
-    std::snprintf(text.data(), text.size(), format, values...);
-    return text.data();
-}
-
 std::string scheme_text(const SimulationStats& stats) {
     if (stats.settings.scheme == Scheme::Exact) return "exact scheme";
-    return line("theta scheme with theta = %g", stats.settings.theta);
+    return formatted("theta scheme with theta = %g", stats.settings.theta);
 }
 
 }  // namespace
@@ -119,26 +113,27 @@ std::string stats_summary(const SimulationStats& stats) {
     const Counters total = total_counters(stats);
     std::string text;
     for (const StringStats& string : stats.strings)
-        text += line("string    %.200s: %zu modes, %zu contacts\n", string.name.c_str(), string.modes,
-                     string.contacts);
-    text += line("settings  %s, %s law, contact rate %.12g Hz, output rate %.12g Hz\n",
-                 scheme_text(stats).c_str(), word(stats.settings.law).c_str(), stats.settings.contact_rate_hz,
-                 stats.settings.output_rate_hz);
-    text += line("sound     %g s in %llu rows\n", stats.sound_s, static_cast<unsigned long long>(stats.rows));
-    text +=
-        line("contact   %llu impulses in %llu steps, worst penetration %.3g m, worst residual %.3g m\n",
-             static_cast<unsigned long long>(total.impulses), static_cast<unsigned long long>(total.steps),
-             total.worst_penetration_m, total.worst_residual_m);
+        text += formatted("string    %.200s: %zu modes, %zu contacts\n", string.name.c_str(), string.modes,
+                          string.contacts);
+    text += formatted("settings  %s, %s law, contact rate %.12g Hz, output rate %.12g Hz\n",
+                      scheme_text(stats).c_str(), word(stats.settings.law).c_str(),
+                      stats.settings.contact_rate_hz, stats.settings.output_rate_hz);
+    text += formatted("sound     %g s in %llu rows\n", stats.sound_s,
+                      static_cast<unsigned long long>(stats.rows));
+    text += formatted(
+        "contact   %llu impulses in %llu steps, worst penetration %.3g m, worst residual %.3g m\n",
+        static_cast<unsigned long long>(total.impulses), static_cast<unsigned long long>(total.steps),
+        total.worst_penetration_m, total.worst_residual_m);
     if (total.truncated_solves + total.nonfinite_resets > 0)
-        text += line("caution   %llu truncated solves, %llu resets of a state that was not finite\n",
-                     static_cast<unsigned long long>(total.truncated_solves),
-                     static_cast<unsigned long long>(total.nonfinite_resets));
+        text += formatted("caution   %llu truncated solves, %llu resets of a state that was not finite\n",
+                          static_cast<unsigned long long>(total.truncated_solves),
+                          static_cast<unsigned long long>(total.nonfinite_resets));
     for (const StringStats& string : stats.strings)
-        text +=
-            line("energy    %.200s: %.6g J at first, %.6g J at last, %.6g J at most\n", string.name.c_str(),
-                 string.initial_energy_J, string.final_energy_J, string.highest_energy_J);
-    text += line("CPU       %.3g s compile, %.3g s render", stats.cpu_compile_s, stats.cpu_render_s);
-    if (const auto factor = real_time_factor(stats)) text += line(", %.3g times real time", *factor);
+        text += formatted("energy    %.200s: %.6g J at first, %.6g J at last, %.6g J at most\n",
+                          string.name.c_str(), string.initial_energy_J, string.final_energy_J,
+                          string.highest_energy_J);
+    text += formatted("CPU       %.3g s compile, %.3g s render", stats.cpu_compile_s, stats.cpu_render_s);
+    if (const auto factor = real_time_factor(stats)) text += formatted(", %.3g times real time", *factor);
     return text + "\n";
 }
 

@@ -49,7 +49,7 @@ std::optional<long long> whole_number(std::string_view text) {
 }
 
 Failure scala_failure(std::size_t line, std::string_view value, std::string allowed) {
-    return {"line " + std::to_string(line), quoted(trimmed(value)), std::move(allowed)};
+    return {"line " + std::to_string(line), in_quotes(trimmed(value)), std::move(allowed)};
 }
 
 Failure scala_missing(std::string_view what, std::string allowed) {

@@ -10,7 +10,6 @@ namespace jawari::host {
 
 namespace {
 
-constexpr double cents_per_octave = 1200;
 const char* const pitch_allowed =
     "a ratio of whole numbers above 0 such as 3/2, or cents with a period such as 701.955, up to 120000";
 

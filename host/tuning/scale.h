@@ -16,6 +16,7 @@ struct Scale {
     std::vector<double> cents;
 };
 
+inline constexpr double cents_per_octave = 1200;
 inline constexpr std::size_t most_scale_notes = 16384;
 inline constexpr double largest_scale_cents = 120000;  ///< 100 octaves, up or down
 inline constexpr std::size_t longest_scala_file_bytes = std::size_t{1} << 20U;

@@ -10,8 +10,6 @@ namespace jawari::host {
 
 namespace {
 
-constexpr double cents_per_octave = 1200;
-
 double equal_temperament_hz(int key) {
     return 440 * std::exp2((key - 69) / 12.0);
 }

@@ -54,9 +54,9 @@ TEST(Text, ParseNumberTakesWholeNumbersOnly) {
 
 TEST(Text, ForeignTextStaysOnOneLine) {
     EXPECT_EQ(printable("a\nb\x1b[2J\x7f"), "a\\x0ab\\x1b[2J\\x7f");
-    EXPECT_EQ(quoted("ok"), "\"ok\"");
+    EXPECT_EQ(in_quotes("ok"), "\"ok\"");
     // Shortened between characters, never inside one: each of these is two bytes.
-    EXPECT_EQ(quoted("ääää", 5), "\"ää...\"");
+    EXPECT_EQ(in_quotes("ääää", 5), "\"ää...\"");
 }
 
 TEST(Text, JoinAndLowerCase) {
