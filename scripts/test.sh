@@ -3,7 +3,8 @@
 #   --full: also warnings as errors, lint, the engine compiled for NEON and for one lane, the tests under
 #           address, undefined-behaviour and thread sanitizers, each fuzz target for ten seconds, and instruction counts
 #           against their table.
-# Every stage runs even if one before it failed; the summaries of all test runs close the output.
+# Every stage runs even if one before it failed; what failed ones said last and the summaries of all test runs close the
+# output.
 set -uo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." || exit 1
 
@@ -22,6 +23,7 @@ logs=$(mktemp -d) || exit 1
 trap 'rm -rf "$logs"' EXIT
 stages=()     # one line each
 test_runs=()  # ctest's closing lines of each test run
+failures=()   # the last lines of each stage that failed
 failed=0
 
 # stage NAME COMMAND...: runs it, keeps its output, notes failure and time.
@@ -33,6 +35,7 @@ stage() {
         stages+=("$name: passed, $((SECONDS - start)) s")
     else
         stages+=("$name: FAILED, $((SECONDS - start)) s")
+        failures+=("" "== $name failed:" "$(tail -n 25 "$logs/last")")
         failed=1
         return 1
     fi
@@ -83,6 +86,7 @@ if $full; then
     stage "build (tsan)" build tsan jawari thread_tests && tests tsan -L threads
 fi
 
+printf '%s\n' "${failures[@]}"
 printf '\n== Summary (%d min %d s)\n' $((SECONDS / 60)) $((SECONDS % 60))
 printf '%s\n' "${stages[@]}" "${test_runs[@]}"
 exit "$failed"

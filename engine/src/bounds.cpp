@@ -17,6 +17,9 @@ constexpr std::uint64_t refresh_period = 32;
 /// Under excitation they grow with every frame.
 constexpr std::uint64_t excited_refresh_period = 8;
 
+/// Of the way to the nearest contact, what passive forces may bend the string by within a frame.
+constexpr double share_of_forces = 0.1;
+
 /// Modes behind the last one that matters are put to rest and leave the sums.
 void drop_weak_modes(const StringModel& model, StringState& state, const kernels::LargestBounds& largest) {
     const CertificateState& bounds = state.certificate;
@@ -49,6 +52,40 @@ void fall_asleep(StringState& state) {
     std::fill(state.contact.frame_impulse.begin(), state.contact.frame_impulse.end(), 0.0);
     state.active_modes = 0;
     state.asleep = true;
+}
+
+/// Whether what acts on the string is too weak to bring a clear string to a contact.
+bool stays_passive(const StringState& state) {
+    const ExcitationState& excitation = state.excitation;
+    return !excitation.active ||
+           (excitation.passive && excitation.strength_N <= state.certificate.clear_force_N);
+}
+
+/// From the obstacles' present heights.
+void set_clear_limits(const StringModel& model, StringState& state) {
+    CertificateState& bounds = state.certificate;
+    bounds.clear_limits_outdated = false;
+    double least_height = std::numeric_limits<double>::infinity();
+    double least_root = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < model.contact_count; ++c) {
+        const double below = std::max(0.0, -state.contact.height[c]);
+        least_height = std::min(least_height, below);
+        least_root = std::min(least_root, below / model.certificate.reach[c]);
+    }
+    const double root = (1 - share_of_forces) * least_root / (bound_safety * model.certificate.reach_growth);
+    bounds.clear_energy_J = root * root;
+    bounds.clear_force_N = share_of_forces * least_height / model.certificate.force_reach;
+}
+
+bool is_clear(const StringModel& model, StringState& state) {
+    if (state.leaves_obstacles) return state.skipping.flight;
+    CertificateState& bounds = state.certificate;
+    const bool known = model.certificate.reach.size() == model.contact_count && lookahead(model) == 0;
+    if (!known || !state.skipping.certificate || !state.skipping.flight) return false;
+    if (bounds.clear_limits_outdated) set_clear_limits(model, state);
+    if (!(bounds.clear_energy_J > 0) || !stays_passive(state)) return false;
+    return kernels::energy(state.active_modes, model.kinetic.data(), model.potential.data(), model.step_s / 2,
+                           state.displacement.data(), state.velocity.data()) < bounds.clear_energy_J;
 }
 
 /// While few contacts strike, their gaps at both ends of each frame cost less than odometers that serve once.
@@ -107,6 +144,7 @@ double highest_obstacle(const StringModel& model, const StringState& state, std:
 
 bool needs_refresh(const StringState& state) JAWARI_REALTIME {
     const CertificateState& bounds = state.certificate;
+    if (bounds.clear) return bounds.outdated || bounds.age >= refresh_period || !stays_passive(state);
     const std::uint64_t period = bounds.excited ? excited_refresh_period : refresh_period;
     return bounds.outdated || bounds.age >= period || bounds.excited != is_excited(state);
 }
@@ -131,8 +169,14 @@ void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIM
         }
         if (state.skipping.lazy) drop_weak_modes(model, state, largest);
     }
-    bounds.direct = looks_directly(model, state);
-    set_group_speeds(model, state);
+    bounds.clear = is_clear(model, state);
+    bounds.direct = !bounds.clear && looks_directly(model, state);
+    if (bounds.clear) {
+        std::fill(bounds.open_until.begin(), bounds.open_until.end(),
+                  -std::numeric_limits<double>::infinity());
+    } else {
+        set_group_speeds(model, state);
+    }
     bounds.age = 0;
     bounds.outdated = false;
     bounds.excited = is_excited(state);

@@ -41,7 +41,7 @@ std::size_t find_watched(const StringModel& model, StringState& state, double fr
         if (!(*std::min_element(first, last) > limit_of(g)))
             bounds.expired_groups[groups++] = static_cast<std::uint32_t>(g);
     }
-    if (!is_excited(state)) complete_clearances(model, state, {bounds.expired_groups.data(), groups});
+    complete_clearances(model, state, {bounds.expired_groups.data(), groups});
     std::size_t watched = 0;
     for (std::size_t i = 0; i < groups; ++i) {
         const auto g = bounds.expired_groups[i];
@@ -49,6 +49,22 @@ std::size_t find_watched(const StringModel& model, StringState& state, double fr
         const double limit = limit_of(g);
         for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
              ++c) {
+            if (!(bounds.open_until[c] > limit))
+                bounds.lookout.watched[watched++] = static_cast<std::uint32_t>(c);
+        }
+    }
+    return watched;
+}
+
+/// The same for the coming frame under excitation, when no clearance holds.
+std::size_t find_watched_under_force(const StringModel& model, StringState& state) {
+    CertificateState& bounds = state.certificate;
+    const double time = frame_length(model) + lookahead(model);
+    std::size_t watched = 0;
+    for (std::size_t g = 0; g < group_count(model); ++g) {
+        const double limit = bounds.group_odometer[g] + gap_speed(state, g) * time;
+        const std::size_t end = model.certificate.group_begin[g + 1];
+        for (std::size_t c = model.certificate.group_begin[g]; c < end; ++c) {
             if (!(bounds.open_until[c] > limit))
                 bounds.lookout.watched[watched++] = static_cast<std::uint32_t>(c);
         }
@@ -76,7 +92,7 @@ std::size_t find_expired_groups(const StringModel& model, StringState& state) {
 std::size_t find_expired(const StringModel& model, StringState& state) {
     CertificateState& bounds = state.certificate;
     const std::size_t groups = find_expired_groups(model, state);
-    if (!is_excited(state)) complete_clearances(model, state, {bounds.expired_groups.data(), groups});
+    complete_clearances(model, state, {bounds.expired_groups.data(), groups});
     std::size_t expired = 0;
     for (std::size_t i = 0; i < groups; ++i) {
         const auto g = bounds.expired_groups[i];
@@ -126,8 +142,9 @@ std::size_t certify_by_speed(const StringModel& model, StringState& state, std::
 
 /// Contacts that neither odometers nor the lookout nor the speed bound certify; their gaps are computed.
 std::size_t find_uncertain(const StringModel& model, StringState& state) {
-    if (is_excited(state)) look_out(model, state, find_watched(model, state, 1), 1);
-    const std::size_t expired = find_expired(model, state);
+    const std::size_t expired = is_excited(state)
+                                    ? look_at_flown(model, state, find_watched_under_force(model, state))
+                                    : find_expired(model, state);
     if (expired == 0) return 0;
     compute_frame_gaps(model, state, expired);
     return certify_by_speed(model, state, expired);
@@ -213,6 +230,11 @@ void set_group_margins(const StringModel& model, StringState& state) {
 void plan_free_frames(const StringModel& model, StringState& state) JAWARI_REALTIME {
     CertificateState& bounds = state.certificate;
     std::uint64_t frames = std::min<std::uint64_t>(frames_until_refresh(state), longest_plan);
+    if (bounds.clear) {
+        bounds.free_frames = frames;
+        bounds.age += frames;
+        return;
+    }
     const auto speeds = bounds.group_speed.begin();
     const bool finite = std::all_of(speeds, speeds + static_cast<std::ptrdiff_t>(group_count(model)),
                                     [](double speed) { return std::isfinite(speed); });
@@ -232,6 +254,7 @@ bool choose_near_contacts(const StringModel& model, StringState& state) JAWARI_R
     ContactState& contact = state.contact;
     for (std::size_t i = 0; i < contact.near_count; ++i) contact.is_near[contact.near[i]] = 0;
     contact.near_count = 0;
+    if (state.leaves_obstacles) return false;
     if (is_excited(state)) add_kicks(model, state);
     const std::size_t left =
         state.certificate.direct ? take_all_gaps(model, state) : find_uncertain(model, state);
@@ -246,11 +269,12 @@ bool choose_near_contacts(const StringModel& model, StringState& state) JAWARI_R
 
 void advance_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME {
     CertificateState& bounds = state.certificate;
+    bounds.age += 1;
+    if (bounds.clear) return;
     for (std::size_t g = 0; g < group_count(model); ++g) {
         bounds.group_odometer[g] += gap_speed(state, g) * frame_length(model) + bounds.group_push[g];
         bounds.group_push[g] = 0;
     }
-    bounds.age += 1;
     if (bounds.direct) bounds.outdated = true;  // odometers are to go on from a speed again
 }
 
@@ -266,27 +290,31 @@ void note_stepped_gaps(const StringModel& model, StringState& state) JAWARI_REAL
             bounds.frame_gap_at[c] = unknown_frame;
         }
     }
+    forget_low_gaps(state);
 }
 
 void forget_bounds(StringState& state) JAWARI_REALTIME {
     CertificateState& bounds = state.certificate;
     bounds.outdated = true;
+    bounds.clear = false;
+    bounds.clear_limits_outdated = true;
     bounds.free_frames = 0;
     bounds.struck = false;
     state.short_frame.gaps_at = unknown_frame;
     std::fill(bounds.open_until.begin(), bounds.open_until.end(), -std::numeric_limits<double>::infinity());
     std::fill(bounds.frame_gap_at.begin(), bounds.frame_gap_at.end(), unknown_frame);
     std::fill(bounds.certified_at.begin(), bounds.certified_at.end(), unknown_frame);
+    forget_low_gaps(state);
     std::fill(bounds.group_odometer.begin(), bounds.group_odometer.end(), 0.0);
     std::fill(bounds.group_push.begin(), bounds.group_push.end(), 0.0);
 }
 
 void choose_all_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
-    contact.near_count = model.contact_count;
+    contact.near_count = state.leaves_obstacles ? 0 : model.contact_count;
     for (std::size_t c = 0; c < model.contact_count; ++c) {
         contact.near[c] = static_cast<std::uint32_t>(c);
-        contact.is_near[c] = 1;
+        contact.is_near[c] = state.leaves_obstacles ? 0 : 1;
     }
 }
 

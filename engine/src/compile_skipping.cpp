@@ -63,6 +63,28 @@ void set_bounds_of_modes(StringModel& model) {
     }
 }
 
+/// docs/certificate.md, section 7.
+void set_reach(StringModel& model) {
+    CertificateModel& certificate = model.certificate;
+    double kicks = 0;
+    for (std::size_t k = 0; k < model.mode_count; ++k) kicks += certificate.kick[k];
+    const double frame_s = model.step_s * static_cast<double>(model.steps_per_frame);
+    certificate.force_reach = bound_safety * (2 / model.length_m) * square(frame_s) / 8 * kicks;
+    certificate.reach.assign(model.contact_count, 0.0);
+    for (std::size_t c = 0; c < model.contact_count; ++c) {
+        const double* row = model.contact_rows.data() + c * model.stride;
+        double of_ends = 0;
+        double of_detours = 0;
+        for (std::size_t k = 0; k < model.mode_count; ++k) {
+            // r^2 = stiffness/potential H
+            const double weight = square(row[k]) * certificate.stiffness[k] / model.potential[k];
+            of_ends += weight * square(certificate.extent[k]);
+            of_detours += weight * square(certificate.detour[k]);
+        }
+        certificate.reach[c] = bound_safety * (std::sqrt(of_ends) + std::sqrt(of_detours));
+    }
+}
+
 void set_groups(StringModel& model) {
     CertificateModel& certificate = model.certificate;
     const std::size_t size = model.contact_count <= contacts_with_own_bounds ? 1 : contacts_per_group;
@@ -103,6 +125,7 @@ void set_skipping(StringModel& model) {
     set_bounds_of_modes(model);
     set_groups(model);
     set_pushes(model);
+    set_reach(model);
     set_responses(model);
     set_short_frames(model);
 }

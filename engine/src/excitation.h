@@ -21,9 +21,23 @@ inline void clear_excitation(StringState& state) JAWARI_REALTIME {
     if (excitation.ramps) std::fill_n(excitation.ramp.begin(), excitation.modes, 0.0);
     excitation.active = false;
     excitation.ramps = false;
+    excitation.passive = false;
     excitation.elapsed = 0;
     excitation.modes = 0;
 }
+
+/// `count` forces [N] on rows phi_k of their points [m^(-1/2)].
+struct PointForces {
+    std::size_t count = 0;
+    const double* force_N = nullptr;
+    const double* const* rows = nullptr;
+};
+
+/// These forces alone, held over the coming frame, on the first `modes` (padded); from `shared` on only the
+/// last of them. `passive`: together they take energy from the string over every frame in which no contact
+/// acts.
+void hold_forces(StringState& state, const PointForces& forces, std::size_t shared, std::size_t modes,
+                 bool passive) JAWARI_REALTIME;
 
 /// Adds force_N + rate_N n at step n from now on `row`, phi_k of the point [m^(-1/2)], to the first `modes`
 /// (padded) modes. Forces that already ramp must have been set at the same time.
@@ -31,6 +45,7 @@ inline void add_force(StringState& state, const double* row, std::size_t modes, 
                       double rate_N = 0) JAWARI_REALTIME {
     ExcitationState& excitation = state.excitation;
     excitation.active = true;
+    excitation.passive = false;
     excitation.modes = std::max(excitation.modes, modes);
     kernels::add_scaled(modes, force_N, row, excitation.held.data());
     if (rate_N == 0) return;

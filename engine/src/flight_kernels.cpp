@@ -35,19 +35,30 @@ HWY_INLINE Vec finite_probe(Vec q, Vec v, Vec probe) {
     return hn::MulAdd(hn::Add(q, v), hn::Zero(Lanes()), probe);
 }
 
-bool fly(std::size_t n, const FlightModel& flight, const double* HWY_RESTRICT q, const double* HWY_RESTRICT v,
-         double* HWY_RESTRICT q_out, double* HWY_RESTRICT v_out) {
+bool fly_forced(std::size_t n, std::size_t forced, const FlightModel& flight, const double* HWY_RESTRICT held,
+                const double* HWY_RESTRICT q, const double* HWY_RESTRICT v, double* HWY_RESTRICT q_out,
+                double* HWY_RESTRICT v_out) {
     const Lanes d;
     Vec probe = hn::Zero(d);
     for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
         Vec displacement = hn::Load(d, q + k);
         Vec velocity = hn::Load(d, v + k);
         fly_vector(flight, k, displacement, velocity);
+        if (k < forced) {
+            const Vec force = hn::Load(d, held + k);
+            displacement = hn::MulAdd(force, hn::Load(d, flight.q_held.data() + k), displacement);
+            velocity = hn::MulAdd(force, hn::Load(d, flight.v_held.data() + k), velocity);
+        }
         hn::Store(displacement, d, q_out + k);
         hn::Store(velocity, d, v_out + k);
         probe = finite_probe(displacement, velocity, probe);
     }
     return hn::GetLane(hn::SumOfLanes(d, probe)) == 0;
+}
+
+bool fly(std::size_t n, const FlightModel& flight, const double* HWY_RESTRICT q, const double* HWY_RESTRICT v,
+         double* HWY_RESTRICT q_out, double* HWY_RESTRICT v_out) {
+    return fly_forced(n, 0, flight, nullptr, q, v, q_out, v_out);
 }
 
 /// What is left of FlightRun when its frames times readings fit `sums`.
@@ -169,12 +180,18 @@ HWY_AFTER_NAMESPACE();
 namespace jawari::kernels {
 
 HWY_EXPORT(fly);
+HWY_EXPORT(fly_forced);
 HWY_EXPORT(fly_frames);
 HWY_EXPORT(read);
 
 bool fly(std::size_t n, const FlightModel& flight, const double* q, const double* v, double* q_out,
          double* v_out) noexcept {
     return HWY_DYNAMIC_DISPATCH(fly)(n, flight, q, v, q_out, v_out);
+}
+
+bool fly_forced(std::size_t n, std::size_t forced, const FlightModel& flight, const double* held,
+                const double* q, const double* v, double* q_out, double* v_out) noexcept {
+    return HWY_DYNAMIC_DISPATCH(fly_forced)(n, forced, flight, held, q, v, q_out, v_out);
 }
 
 bool fly_frames(const FlightRun& run) noexcept {

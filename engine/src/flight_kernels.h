@@ -13,6 +13,10 @@ namespace jawari::kernels {
 bool fly(std::size_t n, const FlightModel& flight, const double* q, const double* v, double* q_out,
          double* v_out) noexcept;
 
+/// The same under modal forces `held` over the frame, on the first `forced` modes (padded).
+bool fly_forced(std::size_t n, std::size_t forced, const FlightModel& flight, const double* held,
+                const double* q, const double* v, double* q_out, double* v_out) noexcept;
+
 /// `frames` frames of fly() in place, the state in registers: the same bits. The readings go to
 /// out[first], out[first + 1], ... Returns false if the end is not finite.
 struct FlightRun {

@@ -34,16 +34,17 @@ bool step_through(const StringModel& model, StringState& state) {
 
 /// displacement_flown, velocity_flown <- the frame's end without contact. Returns false if it is not finite.
 bool fly(const StringModel& model, StringState& state) {
-    const bool finite =
-        kernels::fly(state.active_modes, model.flight, state.displacement.data(), state.velocity.data(),
-                     state.displacement_flown.data(), state.velocity_flown.data());
-    if (!is_excited(state)) return finite;
     const ExcitationState& excitation = state.excitation;
-    return kernels::add_force_response(state.active_modes, model.flight, excitation.held.data(),
-                                       excitation.ramps ? excitation.ramp.data() : nullptr,
-                                       static_cast<double>(excitation.elapsed),
-                                       state.displacement_flown.data(), state.velocity_flown.data()) &&
-           finite;
+    const double *q = state.displacement.data(), *v = state.velocity.data();
+    double *q_end = state.displacement_flown.data(), *v_end = state.velocity_flown.data();
+    if (excitation.ramps) {
+        kernels::fly(state.active_modes, model.flight, q, v, q_end, v_end);
+        return kernels::add_force_response(state.active_modes, model.flight, excitation.held.data(),
+                                           excitation.ramp.data(), static_cast<double>(excitation.elapsed),
+                                           q_end, v_end);
+    }
+    return kernels::fly_forced(state.active_modes, excitation.modes, model.flight, excitation.held.data(), q,
+                               v, q_end, v_end);
 }
 
 void adopt_flight(StringState& state) {
@@ -148,7 +149,7 @@ bool advance_awake(const StringModel& model, StringState& state) {
     if (needs_refresh(state)) refresh_bounds(model, state);
     if (state.asleep) return true;
     if (!fly(model, state)) return false;
-    if (choose_near_contacts(model, state)) {
+    if (!state.certificate.clear && choose_near_contacts(model, state)) {
         bool finite = true;
         if (goes_short(model, state)) {
             finite = pass_short(model, state);

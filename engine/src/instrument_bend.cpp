@@ -43,6 +43,7 @@ void adopt(const StringModel& base, StringModel& bent) {
     bent.dissipation = base.dissipation;
     bent.certificate.group_begin = base.certificate.group_begin;
     bent.certificate.envelope = base.certificate.envelope;
+    bent.certificate.reach = base.certificate.reach;
     bent.response_stride = base.response_stride;
     bent.contact_count = base.contact_count;
     bent.contact_stride = base.contact_stride;
@@ -85,6 +86,7 @@ void reserve(StringModel& bent, const StringSizes& sizes) {
         array->assign(sizes.stride, 0.0);
     }
     c.group_begin.reserve(sizes.groups + 1);
+    c.reach.reserve(sizes.contacts);
     bent.contact_height.reserve(sizes.contacts);
     bent.contact_restitution.reserve(sizes.contacts);
     bent.contact_position.reserve(sizes.contacts);

@@ -111,7 +111,7 @@ void begin(ExciterState& exciter, ExciterPhase phase) {
     exciter.phase = phase;
     exciter.frame = 0;
     exciter.has_touched = false;
-    exciter.force_N = 0;
+    exciter.point = {};
 }
 
 }  // namespace

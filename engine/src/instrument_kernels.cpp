@@ -15,29 +15,72 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Lanes = hn::CappedTag<double, lane_padding>;
 using Vec = hn::Vec<Lanes>;
 
-void free_path(std::size_t n, double lag, const FlightModel& flight, const double* HWY_RESTRICT q,
-               const double* HWY_RESTRICT v, double* HWY_RESTRICT middle, double* HWY_RESTRICT rise) {
+/// The paths of `count` rows over modes [begin, end).
+template <std::size_t count>
+HWY_INLINE void add_paths(std::size_t begin, std::size_t end, double lag, const FlightModel& flight,
+                          const double* HWY_RESTRICT q, const double* HWY_RESTRICT v, std::size_t first,
+                          TouchedRows& rows) {
     const Lanes d;
     const Vec minus_lag = hn::Set(d, -lag);
-    for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
+    Vec middle[count], rise[count];
+    for (std::size_t i = 0; i < count; ++i) middle[i] = rise[i] = hn::Zero(d);
+    for (std::size_t k = begin; k < end; k += hn::Lanes(d)) {
         const Vec x = hn::Load(d, q + k);
         const Vec u = hn::Load(d, v + k);
         const Vec by_q =
             hn::MulAdd(minus_lag, hn::Load(d, flight.vq.data() + k), hn::Load(d, flight.qq.data() + k));
         const Vec by_v =
             hn::MulAdd(minus_lag, hn::Load(d, flight.vv.data() + k), hn::Load(d, flight.qv.data() + k));
-        hn::Store(hn::MulAdd(minus_lag, u, x), d, middle + k);
-        hn::Store(hn::MulAdd(by_q, x, hn::Mul(by_v, u)), d, rise + k);
+        const Vec now = hn::MulAdd(minus_lag, u, x);
+        const Vec change = hn::MulAdd(by_q, x, hn::Mul(by_v, u));
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vec shape = hn::Load(d, rows.row[first + i] + k);
+            middle[i] = hn::MulAdd(shape, now, middle[i]);
+            rise[i] = hn::MulAdd(shape, change, rise[i]);
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        rows.middle[first + i] += hn::GetLane(hn::SumOfLanes(d, middle[i]));
+        rows.rise[first + i] += hn::GetLane(hn::SumOfLanes(d, rise[i]));
     }
 }
 
-void path_since(std::size_t n, double lag, const double* HWY_RESTRICT q, const double* HWY_RESTRICT v,
-                const double* HWY_RESTRICT middle, double* HWY_RESTRICT path) {
+void add_free_paths(std::size_t begin, std::size_t end, double lag, const FlightModel& flight,
+                    const double* HWY_RESTRICT q, const double* HWY_RESTRICT v, TouchedRows& rows) {
+    std::size_t i = 0;
+    for (; i + 2 <= rows.count; i += 2) add_paths<2>(begin, end, lag, flight, q, v, i, rows);
+    if (i < rows.count) add_paths<1>(begin, end, lag, flight, q, v, i, rows);
+}
+
+template <std::size_t count>
+HWY_INLINE void sum_of(std::size_t n, const double* HWY_RESTRICT scales, const double* const* rows,
+                       double* HWY_RESTRICT sum) {
     const Lanes d;
-    const Vec minus_lag = hn::Set(d, -lag);
+    Vec scale[count];
+    const double* row[count];
+    for (std::size_t i = 0; i < count; ++i) {
+        scale[i] = hn::Set(d, scales[i]);
+        row[i] = rows[i];
+    }
     for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
-        const Vec now = hn::MulAdd(minus_lag, hn::Load(d, v + k), hn::Load(d, q + k));
-        hn::Store(hn::Sub(now, hn::Load(d, middle + k)), d, path + k);
+        Vec total = hn::Mul(scale[0], hn::Load(d, row[0] + k));
+        for (std::size_t i = 1; i < count; ++i) total = hn::MulAdd(scale[i], hn::Load(d, row[i] + k), total);
+        hn::Store(total, d, sum + k);
+    }
+}
+
+void sum_rows(std::size_t n, std::size_t count, const double* HWY_RESTRICT scales, const double* const* rows,
+              double* HWY_RESTRICT sum) {
+    if (count == 1) {
+        sum_of<1>(n, scales, rows, sum);
+        return;
+    }
+    sum_of<2>(n, scales, rows, sum);
+    const Lanes d;
+    for (std::size_t i = 2; i < count; ++i) {
+        const Vec scale = hn::Set(d, scales[i]);
+        for (std::size_t k = 0; k < n; k += hn::Lanes(d))
+            hn::Store(hn::MulAdd(scale, hn::Load(d, rows[i] + k), hn::Load(d, sum + k)), d, sum + k);
     }
 }
 
@@ -81,8 +124,8 @@ HWY_INLINE Turns turns_of(double angle) {
 void point_row(std::size_t n, const PointShape& shape, double* HWY_RESTRICT row) {
     const Lanes d;
     const Turns a = turns_of(shape.a);
-    const Turns b = turns_of(shape.b);
     const bool has_width = shape.b > 0;
+    const Turns b = has_width ? turns_of(shape.b) : Turns();
     HWY_ALIGN double first[lane_padding];
     for (std::size_t i = 0; i < lane_padding; ++i) first[i] = static_cast<double>(i + 1) * shape.b;
     const Vec scale = hn::Set(d, shape.scale);
@@ -100,6 +143,7 @@ void point_row(std::size_t n, const PointShape& shape, double* HWY_RESTRICT row)
             const Vec next_sa = hn::MulAdd(sa, ca8, hn::Mul(ca, sa8));
             ca = hn::NegMulAdd(sa, sa8, hn::Mul(ca, ca8));
             sa = next_sa;
+            if (!has_width) continue;
             const Vec next_sb = hn::MulAdd(sb, cb8, hn::Mul(cb, sb8));
             cb = hn::NegMulAdd(sb, sb8, hn::Mul(cb, cb8));
             sb = next_sb;
@@ -140,20 +184,20 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace jawari::kernels {
 
-HWY_EXPORT(free_path);
-HWY_EXPORT(path_since);
+HWY_EXPORT(add_free_paths);
+HWY_EXPORT(sum_rows);
 HWY_EXPORT(moved_by_held);
 HWY_EXPORT(point_row);
 HWY_EXPORT(advance_body);
 
-void free_path(std::size_t n, double lag, const FlightModel& flight, const double* q, const double* v,
-               double* middle, double* rise) noexcept {
-    HWY_DYNAMIC_DISPATCH(free_path)(n, lag, flight, q, v, middle, rise);
+void add_free_paths(std::size_t begin, std::size_t end, double lag, const FlightModel& flight,
+                    const double* q, const double* v, TouchedRows& rows) noexcept {
+    HWY_DYNAMIC_DISPATCH(add_free_paths)(begin, end, lag, flight, q, v, rows);
 }
 
-void path_since(std::size_t n, double lag, const double* q, const double* v, const double* middle,
-                double* path) noexcept {
-    HWY_DYNAMIC_DISPATCH(path_since)(n, lag, q, v, middle, path);
+void sum_rows(std::size_t n, std::size_t count, const double* scales, const double* const* rows,
+              double* sum) noexcept {
+    HWY_DYNAMIC_DISPATCH(sum_rows)(n, count, scales, rows, sum);
 }
 
 void moved_by_held(std::size_t n, double lag, const FlightModel& flight, const double* row,

@@ -1,16 +1,30 @@
 // The loops over modes that instruments add to those of strings (kernels.h), dispatched at run time.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "jawari/instrument_model.h"
+#include "jawari/instrument_touches.h"
 #include "jawari/model.h"
 
 namespace jawari::kernels {
 
-/// middle <- q - lag v, rise <- its change over the frame in free flight.
-void free_path(std::size_t n, double lag, const FlightModel& flight, const double* q, const double* v,
-               double* middle, double* rise) noexcept;
+/// Rows that touch a string, and what the string does under them.
+struct TouchedRows {
+    std::size_t count = 0;
+    std::array<const double*, touch_slots + 1> row{};
+    std::array<double, touch_slots + 1> middle{};  ///< row (q - lag v)
+    std::array<double, touch_slots + 1> rise{};    ///< its change over the frame in free flight
+};
+
+/// Adds what modes [begin, end) do under all rows.
+void add_free_paths(std::size_t begin, std::size_t end, double lag, const FlightModel& flight,
+                    const double* q, const double* v, TouchedRows& rows) noexcept;
+
+/// sum <- sum of scales[i] rows[i], i < count >= 1, over n modes.
+void sum_rows(std::size_t n, std::size_t count, const double* scales, const double* const* rows,
+              double* sum) noexcept;
 
 /// path <- q - lag v - middle
 void path_since(std::size_t n, double lag, const double* q, const double* v, const double* middle,

@@ -44,11 +44,8 @@ void make_audible(const StringModel& model, double output_rate_hz, double* row) 
         row[k] *= audible_share(model.omega[k] / (2 * pi), output_rate_hz);
 }
 
-double product(const StringModel& model, const double* row, const AlignedVector<double>& x,
-               std::size_t modes) {
-    double value = 0;
-    kernels::row_products(1, modes, model.stride, row, x.data(), &value);
-    return value;
+double product(const double* row, const AlignedVector<double>& x, std::size_t modes) {
+    return kernels::row_product(modes, row, x.data());
 }
 
 /// 1 but towards the other end of the mix.
@@ -74,13 +71,13 @@ void set_output_rows(StoppedStringModel& stopped, const InstrumentDescription& i
             write_point_row(model, model.stride, x, pickup.width_m, row);
         }
         make_audible(model, output_rate_hz, row);
-        stopped.pickup_rest.push_back(product(model, row, model.rest_displacement, model.stride));
+        stopped.pickup_rest.push_back(product(row, model.rest_displacement, model.stride));
     }
     if (instrument.body.empty()) return;
     stopped.bridge_row.assign(model.stride, 0.0);
     write_bridge_row(model, stopped.bridge_row.data());
     make_audible(model, output_rate_hz, stopped.bridge_row.data());
-    stopped.bridge_rest_N = product(model, stopped.bridge_row.data(), model.rest_displacement, model.stride);
+    stopped.bridge_rest_N = product(stopped.bridge_row.data(), model.rest_displacement, model.stride);
 }
 
 double pickup_signal(const InstrumentModel& model, const StoppedStringModel& stopped,
@@ -93,11 +90,10 @@ double pickup_signal(const InstrumentModel& model, const StoppedStringModel& sto
         if (share == 0) continue;
         const double* row = stopped.pickup_rows.data() + i * stopped.string.stride;
         const auto displacement = [&] {
-            return product(stopped.string, row, string.displacement, modes) - stopped.pickup_rest[i];
+            return product(row, string.displacement, modes) - stopped.pickup_rest[i];
         };
-        double signal = pickup.quantity == PickupQuantity::Velocity
-                            ? product(stopped.string, row, string.velocity, modes)
-                            : displacement();
+        double signal = pickup.quantity == PickupQuantity::Velocity ? product(row, string.velocity, modes)
+                                                                    : displacement();
         if (pickup.magnet_distance_m > 0 && pickup.quantity == PickupQuantity::Velocity) {
             const double gap = std::max(closest_share, 1 - displacement() / pickup.magnet_distance_m);
             signal /= gap * gap * gap;
@@ -108,7 +104,7 @@ double pickup_signal(const InstrumentModel& model, const StoppedStringModel& sto
 }
 
 double bridge_force(const StoppedStringModel& stopped, const StringState& string) JAWARI_REALTIME {
-    return product(stopped.string, stopped.bridge_row.data(), string.displacement, string.active_modes) -
+    return product(stopped.bridge_row.data(), string.displacement, string.active_modes) -
            stopped.bridge_rest_N;
 }
 

@@ -27,12 +27,6 @@ double frame_s(const StringModel& model) {
     return model.step_s * static_cast<double>(model.steps_per_frame);
 }
 
-double dot(std::size_t modes, const double* a, const double* b) {
-    double sum = 0;
-    kernels::row_products(1, modes, modes, a, b, &sum);
-    return sum;
-}
-
 /// Flesh and felt damp what is heard; modes far beyond die by themselves and need not be woken.
 std::size_t modes_in_reach(const StringModel& model) {
     const auto end = model.omega.begin() + static_cast<std::ptrdiff_t>(model.mode_count);
@@ -41,12 +35,19 @@ std::size_t modes_in_reach(const StringModel& model) {
     return padded(static_cast<std::size_t>(first_beyond - model.omega.begin()));
 }
 
+/// Behind its reach the row is zero, so that touches of different reach can be summed together.
+void set_reach(const StringModel& model, Touch& touch) {
+    touch.modes = modes_in_reach(model);
+    std::fill(touch.row.begin() + static_cast<std::ptrdiff_t>(touch.modes), touch.row.end(), 0.0);
+}
+
 /// The touches and, if it acts, the exciter.
 struct ActiveForces {
     std::array<std::size_t, forces> index{};
     std::size_t count = 0;
-    std::size_t touches = 0;  ///< those in front
-    std::size_t modes = 0;    ///< that any of them reaches
+    std::size_t touches = 0;        ///< those in front
+    std::size_t touched_modes = 0;  ///< that any of them reaches
+    bool sprung = false;            ///< one of them has a spring
 };
 
 const AlignedVector<double>& row_of(const TouchState& touches, std::size_t i) {
@@ -57,40 +58,38 @@ std::size_t modes_of(const StringModel& model, const TouchState& touches, std::s
     return i == exciter_index ? model.stride : touches.touches[i].modes;
 }
 
-ActiveForces active_forces(const StringModel& model, const TouchState& touches) {
-    ActiveForces active;
-    for (std::size_t i = 0; i < touch_slots; ++i) {
-        if (!touches.touches[i].active) continue;
-        active.index[active.count++] = i;
-        active.modes = std::max(active.modes, touches.touches[i].modes);
-    }
-    active.touches = active.count;
-    if (touches.exciter.phase == ExciterPhase::None) return active;
-    active.index[active.count++] = exciter_index;
-    active.modes = model.stride;
-    return active;
+/// w = phi (q - h v/2) under each force at the frame's start, and its change over the frame in free flight.
+kernels::TouchedRows free_paths(const StringModel& model, const StringState& string,
+                                const TouchState& touches, const ActiveForces& active) {
+    kernels::TouchedRows rows;
+    rows.count = active.count;
+    for (std::size_t a = 0; a < active.count; ++a) rows.row[a] = row_of(touches, active.index[a]).data();
+    const double lag = model.step_s / 2;
+    const double *q = string.displacement.data(), *v = string.velocity.data();
+    kernels::add_free_paths(0, active.touched_modes, lag, model.flight, q, v, rows);
+    if (active.count == active.touches) return rows;
+    kernels::TouchedRows beyond;  // what only the exciter reaches
+    beyond.count = 1;
+    beyond.row[0] = touches.exciter.row.data();
+    kernels::add_free_paths(active.touched_modes, model.stride, lag, model.flight, q, v, beyond);
+    rows.middle[active.touches] += beyond.middle[0];
+    rows.rise[active.touches] += beyond.rise[0];
+    return rows;
 }
 
-/// middle <- q - h v/2, rise <- its change over the frame in free flight.
-void set_free_path(const StringModel& model, const StringState& string, TouchState& touches,
-                   std::size_t modes) {
-    kernels::free_path(modes, model.step_s / 2, model.flight, string.displacement.data(),
-                       string.velocity.data(), touches.middle.data(), touches.rise.data());
-}
-
-/// G_ij = sum_k phi_i (q_held - h v_held/2) phi_j; rise is free to use.
+/// G_ij = sum_k phi_i (q_held - h v_held/2) phi_j; `moved` is scratch.
 void set_compliance_of_touches(const StringModel& model, TouchState& touches, const ActiveForces& active) {
     const double lag = model.step_s / 2;
     for (std::size_t a = 0; a < active.count; ++a) {
         const std::size_t i = active.index[a];
         const std::size_t modes = modes_of(model, touches, i);
         const double* row = row_of(touches, i).data();
-        double* moved = touches.rise.data();
+        double* moved = touches.moved.data();
         kernels::moved_by_held(modes, lag, model.flight, row, moved);
         for (std::size_t b = 0; b <= a; ++b) {
             const std::size_t j = active.index[b];
-            const double g =
-                dot(std::min(modes, modes_of(model, touches, j)), row_of(touches, j).data(), moved);
+            const double g = kernels::row_product(std::min(modes, modes_of(model, touches, j)),
+                                                  row_of(touches, j).data(), moved);
             touches.compliance[i * forces + j] = g;
             touches.compliance[j * forces + i] = g;
         }
@@ -105,10 +104,11 @@ struct TouchAnswer {
 };
 
 /// F_i = -(c/T + k/2) (rise_i + sum_j G_ij F_j) - k (w_i - rest_i), solved for the F of the touches.
-TouchAnswer answer_of_touches(const StringModel& model, const TouchState& touches,
-                              const ActiveForces& active) {
+template <std::size_t most>
+TouchAnswer answer_of(const StringModel& model, const TouchState& touches, const ActiveForces& active,
+                      const kernels::TouchedRows& paths) {
     TouchAnswer answer;
-    SmallSystem<touch_slots> system;
+    SmallSystem<most> system;
     const std::size_t n = active.touches;
     for (std::size_t a = 0; a < n; ++a) {
         const std::size_t i = active.index[a];
@@ -118,14 +118,19 @@ TouchAnswer answer_of_touches(const StringModel& model, const TouchState& touche
         for (std::size_t b = 0; b < n; ++b)
             system.matrix[a][b] =
                 (a == b ? 1.0 : 0.0) + drag * touches.compliance[i * forces + active.index[b]];
-        system.right[a][0] = -drag * dot(touch.modes, touch.row.data(), touches.rise.data());
-        if (stiffness > 0) {
-            const double w = dot(touch.modes, touch.row.data(), touches.middle.data());
-            system.right[a][0] -= stiffness * (w - touch.rest_m);
-        }
+        system.right[a][0] = -drag * paths.rise[a] - stiffness * (paths.middle[a] - touch.rest_m);
         system.right[a][1] = -drag * touches.compliance[i * forces + exciter_index];
     }
-    solve_small_system(system, n);
+    if constexpr (most == 2) {
+        if (n < 2) {
+            system.matrix[0][1] = system.matrix[1][0] = 0;
+            system.matrix[1][1] = 1;
+            system.right[1] = {0, 0};
+        }
+        solve_two(system);  // I + D G with D > 0 and G positive: the determinant is at least 1
+    } else {
+        solve_small_system(system, n);
+    }
     for (std::size_t a = 0; a < n; ++a) {
         answer.alone[a] = system.right[a][0];
         answer.by_exciter[a] = system.right[a][1];
@@ -133,14 +138,23 @@ TouchAnswer answer_of_touches(const StringModel& model, const TouchState& touche
     return answer;
 }
 
+/// A hand has two places: most often there are no more touches.
+TouchAnswer answer_of_touches(const StringModel& model, const TouchState& touches, const ActiveForces& active,
+                              const kernels::TouchedRows& paths) {
+    if (active.touches == 0) return {};
+    if (active.touches <= 2) return answer_of<2>(model, touches, active, paths);
+    return active.touches <= 4 ? answer_of<4>(model, touches, active, paths)
+                               : answer_of<touch_slots>(model, touches, active, paths);
+}
+
 /// How the exciter's point moves: by `rise` without its force, and by `give` per newton of it.
 StringAtExciter string_at_exciter(const StringModel& model, const TouchState& touches,
-                                  const ActiveForces& active, const TouchAnswer& answer) {
+                                  const ActiveForces& active, const kernels::TouchedRows& paths,
+                                  const TouchAnswer& answer) {
     StringAtExciter at;
-    const double* row = touches.exciter.row.data();
     at.frame_s = frame_s(model);
-    at.displacement_m = dot(model.stride, row, touches.middle.data());
-    at.rise_m = dot(model.stride, row, touches.rise.data());
+    at.displacement_m = paths.middle[active.touches];
+    at.rise_m = paths.rise[active.touches];
     at.give_m_per_N = touches.compliance[exciter_index * forces + exciter_index];
     for (std::size_t a = 0; a < active.touches; ++a) {
         const double g = touches.compliance[exciter_index * forces + active.index[a]];
@@ -162,25 +176,56 @@ double place_of(const StringModel& model, const Touch& touch) {
     return touch.x_m + touch.sweep_m * std::sin(2 * std::numbers::pi * turns);
 }
 
-void sweep_touches(const StringModel& model, TouchState& touches) {
-    for (Touch& touch : touches.touches) {
-        if (!touch.active || touch.sweep_m == 0) continue;
+void sweep_touches(const StringModel& model, TouchState& touches, const ActiveForces& active) {
+    for (std::size_t a = 0; a < active.touches; ++a) {
+        Touch& touch = touches.touches[active.index[a]];
+        if (touch.sweep_m == 0) continue;
         if (touch.age++ % sweep_frames != 0) continue;
         write_point_row(model, touch.modes, place_of(model, touch), touch.width_m, touch.row.data());
         touches.outdated = true;
     }
 }
 
-/// Touches come, follow the pressure, and leave.
-void move_touches(TouchState& touches) {
-    for (Touch& touch : touches.touches) {
+/// The touch comes, follows the pressure, and leaves.
+void move(Touch& touch) {
+    touch.damping_kg_per_s += pressure_follow * (touch.pressed_kg_per_s - touch.damping_kg_per_s);
+    touch.share = std::min(1.0, touch.share + touch.share_rate);
+    if (touch.share <= 0) touch.active = false;
+    if (touch.frames_left == 0) return;
+    touch.frames_left -= 1;
+    if (touch.frames_left == 0) leave(touch);
+}
+
+/// Moves the touches on by a frame; those that are left, and the exciter.
+ActiveForces move_touches(TouchState& touches) {
+    ActiveForces active;
+    for (std::size_t i = 0; i < touch_slots; ++i) {
+        Touch& touch = touches.touches[i];
         if (!touch.active) continue;
-        touch.damping_kg_per_s += pressure_follow * (touch.pressed_kg_per_s - touch.damping_kg_per_s);
-        touch.share = std::min(1.0, touch.share + touch.share_rate);
-        if (touch.share <= 0) touch.active = false;
-        if (touch.frames_left == 0) continue;
-        touch.frames_left -= 1;
-        if (touch.frames_left == 0) leave(touch);
+        touch.point = {};
+        move(touch);
+        if (!touch.active) continue;
+        active.index[active.count++] = i;
+        active.touched_modes = std::max(active.touched_modes, touch.modes);
+        active.sprung = active.sprung || touch.stiffness_N_per_m > 0;
+    }
+    active.touches = active.count;
+    touches.exciter.point = {};
+    if (touches.exciter.phase != ExciterPhase::None) active.index[active.count++] = exciter_index;
+    return active;
+}
+
+/// What the frame's forces are, and how far their points go if no contact acts.
+void note_paths(TouchState& touches, const ActiveForces& active, const kernels::TouchedRows& paths,
+                const std::array<double, forces>& force_N) {
+    for (std::size_t a = 0; a < active.count; ++a) {
+        const std::size_t i = active.index[a];
+        TouchedPoint& point = i == exciter_index ? touches.exciter.point : touches.touches[i].point;
+        point.force_N = force_N[a];
+        point.start_m = paths.middle[a];
+        point.path_m = paths.rise[a];
+        for (std::size_t b = 0; b < active.count; ++b)
+            point.path_m += touches.compliance[i * forces + active.index[b]] * force_N[b];
     }
 }
 
@@ -190,13 +235,15 @@ TouchState make_touch_state(std::size_t stride) {
     TouchState touches;
     for (Touch& touch : touches.touches) touch.row.assign(stride, 0.0);
     touches.exciter.row.assign(stride, 0.0);
-    touches.middle.assign(stride, 0.0);
-    touches.rise.assign(stride, 0.0);
+    touches.moved.assign(stride, 0.0);
     return touches;
 }
 
 void lift_all_touches(TouchState& touches) JAWARI_REALTIME {
-    for (Touch& touch : touches.touches) touch.active = false;
+    for (Touch& touch : touches.touches) {
+        touch.active = false;
+        touch.point = {};
+    }
     touches.exciter.phase = ExciterPhase::None;
     touches.outdated = true;
 }
@@ -217,10 +264,11 @@ void lay_touch(const StringModel& model, const StringState& string, TouchState& 
     touch.sweep_m = plan.sweep_m;
     touch.age = 0;
     touches.outdated = true;
-    touch.modes = modes_in_reach(model);
+    set_reach(model, touch);
     write_point_row(model, touch.modes, plan.x_m, plan.width_m, touch.row.data());
-    touch.rest_m = dot(touch.modes, touch.row.data(), string.displacement.data()) -
-                   model.step_s / 2 * dot(touch.modes, touch.row.data(), string.velocity.data());
+    touch.rest_m =
+        kernels::row_product(touch.modes, touch.row.data(), string.displacement.data()) -
+        model.step_s / 2 * kernels::row_product(touch.modes, touch.row.data(), string.velocity.data());
 }
 
 void press_touch(TouchState& touches, TouchSlot slot, double damping_kg_per_s) JAWARI_REALTIME {
@@ -234,34 +282,34 @@ void lift_touch(TouchState& touches, TouchSlot slot) JAWARI_REALTIME {
 }
 
 void apply_touches(const StringModel& model, StringState& string, TouchState& touches) JAWARI_REALTIME {
-    clear_excitation(string);
-    move_touches(touches);
-    for (Touch& touch : touches.touches) touch.force_N = 0;
-    touches.exciter.force_N = 0;
-    const ActiveForces active = active_forces(model, touches);
+    const ActiveForces active = move_touches(touches);
     const bool excites = active.count > active.touches;
-    if (active.count == 0 || (string.asleep && !excites)) return;
-    sweep_touches(model, touches);
+    if (active.count == 0 || (string.asleep && !excites)) {
+        clear_excitation(string);
+        return;
+    }
+    sweep_touches(model, touches, active);
     if (touches.outdated) set_compliance_of_touches(model, touches, active);
-    set_free_path(model, string, touches, active.modes);
-    const TouchAnswer answer = answer_of_touches(model, touches, active);
-    double force_N = 0;
+    const kernels::TouchedRows paths = free_paths(model, string, touches, active);
+    const TouchAnswer answer = answer_of_touches(model, touches, active, paths);
+    std::array<double, forces> force_N{};
+    double exciter_N = 0;
     if (excites) {
-        force_N = exciter_force(string_at_exciter(model, touches, active, answer), touches.exciter);
-        touches.exciter.force_N = force_N;
-        if (force_N != 0) add_force(string, touches.exciter.row.data(), model.stride, force_N);
+        exciter_N = exciter_force(string_at_exciter(model, touches, active, paths, answer), touches.exciter);
+        force_N[active.touches] = exciter_N;
     }
-    for (std::size_t a = 0; a < active.touches; ++a) {
-        Touch& touch = touches.touches[active.index[a]];
-        touch.force_N = answer.alone[a] + answer.by_exciter[a] * force_N;
-        if (touch.force_N != 0) add_force(string, touch.row.data(), touch.modes, touch.force_N);
-    }
+    for (std::size_t a = 0; a < active.touches; ++a)
+        force_N[a] = answer.alone[a] + answer.by_exciter[a] * exciter_N;
+    note_paths(touches, active, paths, force_N);
+    const bool passive = exciter_N == 0 && !active.sprung;
+    hold_forces(string, {active.count, force_N.data(), paths.row.data()}, active.touched_modes,
+                excites ? model.stride : active.touched_modes, passive);
 }
 
 void rewrite_touches(const StringModel& model, TouchState& touches, std::size_t kept) JAWARI_REALTIME {
     for (Touch& touch : touches.touches) {
         if (!touch.active) continue;
-        touch.modes = modes_in_reach(model);
+        set_reach(model, touch);
         write_point_row(model, touch.modes, place_of(model, touch), touch.width_m, touch.row.data());
     }
     // An exciter acts for milliseconds: modes that come in meanwhile do not feel it.
@@ -270,20 +318,22 @@ void rewrite_touches(const StringModel& model, TouchState& touches, std::size_t 
     touches.outdated = true;
 }
 
-void meter_touches(const StringModel& model, const StringState& string, TouchState& touches,
+void meter_touches(const StringModel& model, const StringState& string, TouchState& touches, bool struck,
                    PlayerWork& work) JAWARI_REALTIME {
     if (!string.excitation.active) return;
-    const double lag = model.step_s / 2;
-    double* path = touches.rise.data();
-    kernels::path_since(string.excitation.modes, lag, string.displacement.data(), string.velocity.data(),
-                        touches.middle.data(), path);
+    const auto path_of = [&](const TouchedPoint& point, const AlignedVector<double>& row, std::size_t modes) {
+        if (!struck) return point.path_m;
+        const double q = kernels::row_product(modes, row.data(), string.displacement.data());
+        const double v = kernels::row_product(modes, row.data(), string.velocity.data());
+        return q - model.step_s / 2 * v - point.start_m;
+    };
     for (const Touch& touch : touches.touches) {
-        if (touch.force_N == 0) continue;
-        work.touches_J += touch.force_N * dot(touch.modes, touch.row.data(), path);
+        if (touch.point.force_N == 0) continue;
+        work.touches_J += touch.point.force_N * path_of(touch.point, touch.row, touch.modes);
     }
     const ExciterState& exciter = touches.exciter;
-    if (exciter.force_N != 0)
-        work.exciters_J += exciter.force_N * dot(model.stride, exciter.row.data(), path);
+    if (exciter.point.force_N != 0)
+        work.exciters_J += exciter.point.force_N * path_of(exciter.point, exciter.row, model.stride);
 }
 
 void write_point_row(const StringModel& model, std::size_t modes, double x, double width_m,

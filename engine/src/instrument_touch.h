@@ -46,8 +46,8 @@ void apply_touches(const StringModel& model, StringState& string, TouchState& to
 /// The string has another number of modes from now on, `kept` of which are those it had.
 void rewrite_touches(const StringModel& model, TouchState& touches, std::size_t kept) JAWARI_REALTIME;
 
-/// After the frame: what the forces have done.
-void meter_touches(const StringModel& model, const StringState& string, TouchState& touches,
+/// After the frame: what the forces have done. `struck`: contacts acted in the frame.
+void meter_touches(const StringModel& model, const StringState& string, TouchState& touches, bool struck,
                    PlayerWork& work) JAWARI_REALTIME;
 
 /// row_k <- phi_k averaged over width_m around x, for the first `modes` (padded); 0 in the padding.

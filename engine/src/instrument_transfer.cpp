@@ -83,7 +83,7 @@ void carry_over(const InstrumentStringModel& string, const Voice& from, Voice& t
     const double scale = std::sqrt(2 / source.length_m);
     const double before = energy(stop.string, to.string);
     // The backward velocity of the new motion is made of its shape and true velocity, each projected.
-    AlignedVector<double>& projected = to.touches.rise;
+    AlignedVector<double>& projected = to.touches.moved;
     std::fill(projected.begin(), projected.end(), 0.0);
     for (std::size_t j = 0; j < lengths.from_modes; ++j) {
         const double q = from.string.displacement[j] - source.rest_displacement[j];

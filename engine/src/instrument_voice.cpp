@@ -139,6 +139,7 @@ void start_voice(const InstrumentModel& model, const InstrumentStringModel& stri
     voice.fade_frame = 0;
     voice.rise_frame = model.fade_shape.size();
     voice.slide.active = false;
+    voice.rests_on_obstacles = stopped.held_energy_J != 0;
     forget_bend(voice);
     reset(stopped.string, voice.string);
     lower_obstacles(stopped, voice.string, action_m);
@@ -168,6 +169,10 @@ void fade_voice(Voice& voice) JAWARI_REALTIME {
     if (voice.fading) return;
     voice.fading = true;
     voice.fade_frame = 0;
+    if (voice.rests_on_obstacles) return;
+    // Nobody hears what hands and obstacles would do to it in these milliseconds.
+    lift_all_touches(voice.touches);
+    leave_obstacles(voice.string);
 }
 
 VoiceSignals advance_voice(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice,
@@ -175,8 +180,10 @@ VoiceSignals advance_voice(const InstrumentModel& model, const InstrumentStringM
     const StringModel& coefficients = voice_model(string, voice);
     const StoppedStringModel& stopped = string.stopped[voice.fret];
     apply_touches(coefficients, voice.string, voice.touches);
+    const std::uint64_t impulses = voice.string.counters.impulses;
     advance_frame(coefficients, voice.string);
-    meter_touches(coefficients, voice.string, voice.touches, state.work);
+    const bool struck = voice.string.counters.impulses != impulses;
+    meter_touches(coefficients, voice.string, voice.touches, struck, state.work);
     voice.age += 1;
     follow_gains(voice, smoothing);
     const double gain = voice.gains.level * fade_gain(model, voice);
@@ -193,7 +200,7 @@ VoiceSignals advance_voice(const InstrumentModel& model, const InstrumentStringM
 double voice_energy(const InstrumentStringModel& string, Voice& voice) JAWARI_REALTIME {
     const StringModel& model = voice_model(string, voice);
     if (string.stopped[voice.fret].held_energy_J == 0) return energy(model, voice.string);
-    AlignedVector<double>& beyond = voice.touches.rise;
+    AlignedVector<double>& beyond = voice.touches.moved;
     for (std::size_t k = 0; k < model.stride; ++k)
         beyond[k] = voice.string.displacement[k] - model.rest_displacement[k];
     return kernels::energy(model.stride, model.kinetic.data(), model.potential.data(), model.step_s / 2,

@@ -29,7 +29,7 @@ void start_voice(const InstrumentModel& model, const InstrumentStringModel& stri
 void strike_voice(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice,
                   const Stroke& stroke, double position_factor) JAWARI_REALTIME;
 
-/// Takes a motion away within the model's fade.
+/// Takes a motion away within the model's fade, in which it flies freely unless obstacles hold it.
 void fade_voice(Voice& voice) JAWARI_REALTIME;
 
 /// What one motion adds to a frame.

@@ -171,6 +171,7 @@ HWY_AFTER_NAMESPACE();
 namespace jawari::kernels {
 
 HWY_EXPORT(free_velocity);
+HWY_EXPORT(row_product);
 HWY_EXPORT(row_products);
 HWY_EXPORT(indexed_row_products);
 HWY_EXPORT(add_rows);
@@ -184,6 +185,10 @@ HWY_EXPORT(target);
 void free_velocity(std::size_t n, const double* carry, const double* change, const double* restoring,
                    const double* q, const double* v, double* out) noexcept {
     HWY_DYNAMIC_DISPATCH(free_velocity)(n, carry, change, restoring, q, v, out);
+}
+
+double row_product(std::size_t n, const double* row, const double* x) noexcept {
+    return HWY_DYNAMIC_DISPATCH(row_product)(n, row, x);
 }
 
 void row_products(std::size_t rows_count, std::size_t n, std::size_t stride, const double* rows,

@@ -11,6 +11,9 @@ namespace jawari::kernels {
 void free_velocity(std::size_t n, const double* carry, const double* change, const double* restoring,
                    const double* q, const double* v, double* out) noexcept;
 
+/// sum_{k<n} row[k] x[k]
+double row_product(std::size_t n, const double* row, const double* x) noexcept;
+
 /// out[c] = sum_{k<n} rows[c * stride + k] x[k], c < rows_count
 void row_products(std::size_t rows_count, std::size_t n, std::size_t stride, const double* rows,
                   const double* x, double* out) noexcept;

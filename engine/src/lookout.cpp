@@ -1,6 +1,7 @@
 #include "lookout.h"
 
 #include <algorithm>
+#include <span>
 
 #include "bounds.h"
 #include "flight_kernels.h"
@@ -49,15 +50,23 @@ void complete_lookouts(const StringModel& model, StringState& state, std::size_t
     }
 }
 
-/// gap[c] <- S q - b of the watched contacts, low modes alone.
-void low_gaps(const StringModel& model, StringState& state, std::size_t watched, std::vector<double>& gap) {
+/// gap[c] <- S q - b of the contacts, low modes alone.
+void low_gaps(const StringModel& model, const StringState& state, std::span<const std::uint32_t> contacts,
+              const AlignedVector<double>& displacement, std::vector<double>& gap) {
+    kernels::indexed_row_products(contacts.data(), contacts.size(), low_modes(model), model.stride,
+                                  model.contact_rows.data(), displacement.data(), gap.data());
+    for (const auto c : contacts) gap[c] -= state.contact.height[c];
+}
+
+/// The gaps at the frame's start of watched contacts that were not watched in the frame before.
+void complete_low_gaps(const StringModel& model, StringState& state, std::size_t watched) {
     LookoutState& lookout = state.certificate.lookout;
-    kernels::indexed_row_products(lookout.watched.data(), watched, low_modes(model), model.stride,
-                                  model.contact_rows.data(), lookout.displacement.data(), gap.data());
+    std::size_t unknown = 0;
     for (std::size_t i = 0; i < watched; ++i) {
         const auto c = lookout.watched[i];
-        gap[c] -= state.contact.height[c];
+        if (lookout.gap_at[c] != state.frame) lookout.unknown[unknown++] = c;
     }
+    low_gaps(model, state, {lookout.unknown.data(), unknown}, state.displacement, lookout.gap);
 }
 
 void fly_low_modes(const StringModel& model, StringState& state) {
@@ -70,11 +79,6 @@ void fly_low_modes(const StringModel& model, StringState& state) {
     run.q = lookout.displacement.data();
     run.v = lookout.velocity.data();
     kernels::fly_frames(run);
-    const ExcitationState& excitation = state.excitation;
-    if (!excitation.active) return;
-    kernels::add_force_response(low, model.flight, excitation.held.data(),
-                                excitation.ramps ? excitation.ramp.data() : nullptr,
-                                static_cast<double>(excitation.elapsed), run.q, run.v);
 }
 
 /// Margin of a watched contact over the frame between the two gaps of its low modes.
@@ -83,20 +87,14 @@ double margin_of(const StringModel& model, const StringState& state, std::size_t
     return std::min(lookout.gap[c], lookout.gap_end[c]) - dip(model, state, group_of(model, c));
 }
 
-/// Contacts certified for the coming frame keep their margin, and a reading that holds at its end.
-void note_coming_frame(const StringModel& model, StringState& state, std::size_t watched) {
+/// A contact certified for the coming frame keeps its margin, and a reading that holds at its end.
+void note_coming_frame(const StringModel& model, StringState& state, std::size_t c, double margin) {
     CertificateState& bounds = state.certificate;
-    const LookoutState& lookout = bounds.lookout;
-    for (std::size_t i = 0; i < watched; ++i) {
-        const auto c = lookout.watched[i];
-        const std::size_t g = group_of(model, c);
-        const double margin = margin_of(model, state, c);
-        if (!(margin > 0)) continue;
-        bounds.margin[c] = margin;
-        bounds.certified_at[c] = state.frame;
-        bounds.open_until[c] = bounds.group_odometer[g] + gap_speed(state, g) * frame_length(model) +
-                               lookout.gap_end[c] - overtones(state, g);
-    }
+    const std::size_t g = group_of(model, c);
+    bounds.margin[c] = margin;
+    bounds.certified_at[c] = state.frame;
+    bounds.open_until[c] = bounds.group_odometer[g] + gap_speed(state, g) * frame_length(model) +
+                           bounds.lookout.gap_end[c] - overtones(state, g);
 }
 
 /// Readings that hold when the odometers have moved on by `frames`.
@@ -117,26 +115,50 @@ void note_end(const StringModel& model, StringState& state, std::size_t watched,
 std::size_t look_out(const StringModel& model, StringState& state, std::size_t watched,
                      std::size_t frames) JAWARI_REALTIME {
     LookoutState& lookout = state.certificate.lookout;
+    const std::span<const std::uint32_t> contacts{lookout.watched.data(), watched};
     complete_lookouts(model, state, watched);
     std::copy_n(state.displacement.begin(), low_modes(model), lookout.displacement.begin());
     std::copy_n(state.velocity.begin(), low_modes(model), lookout.velocity.begin());
-    low_gaps(model, state, watched, lookout.gap);
+    low_gaps(model, state, contacts, lookout.displacement, lookout.gap);
     std::size_t certified = 0;
     for (; certified < frames; ++certified) {
         fly_low_modes(model, state);
-        low_gaps(model, state, watched, lookout.gap_end);
-        const bool open = std::all_of(lookout.watched.begin(),
-                                      lookout.watched.begin() + static_cast<std::ptrdiff_t>(watched),
+        low_gaps(model, state, contacts, lookout.displacement, lookout.gap_end);
+        const bool open = std::all_of(contacts.begin(), contacts.end(),
                                       [&](std::uint32_t c) { return margin_of(model, state, c) > 0; });
         if (!open) break;
         lookout.gap.swap(lookout.gap_end);
     }
-    if (certified == 0) {
-        note_coming_frame(model, state, watched);
-    } else {
+    if (certified > 0) {
         note_end(model, state, watched, certified);
+        return certified;
     }
-    return certified;
+    for (const auto c : contacts) {
+        const double margin = margin_of(model, state, c);
+        if (margin > 0) note_coming_frame(model, state, c, margin);
+    }
+    return 0;
+}
+
+std::size_t look_at_flown(const StringModel& model, StringState& state, std::size_t watched) JAWARI_REALTIME {
+    CertificateState& bounds = state.certificate;
+    LookoutState& lookout = bounds.lookout;
+    complete_lookouts(model, state, watched);
+    complete_low_gaps(model, state, watched);
+    low_gaps(model, state, {lookout.watched.data(), watched}, state.displacement_flown, lookout.gap_end);
+    std::size_t uncertain = 0;
+    for (std::size_t i = 0; i < watched; ++i) {
+        const auto c = lookout.watched[i];
+        const double margin = margin_of(model, state, c);
+        if (margin > 0) {
+            note_coming_frame(model, state, c, margin);
+        } else {
+            bounds.expired[uncertain++] = c;
+        }
+        lookout.gap[c] = lookout.gap_end[c];
+        lookout.gap_at[c] = state.frame + 1;
+    }
+    return uncertain;
 }
 
 }  // namespace jawari

@@ -2,7 +2,11 @@
 // bound of their displacement (docs/certificate.md, section 3).
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 #include "jawari/model.h"
 #include "jawari/realtime.h"
@@ -16,5 +20,15 @@ namespace jawari {
 /// certified_at.
 std::size_t look_out(const StringModel& model, StringState& state, std::size_t watched,
                      std::size_t frames) JAWARI_REALTIME;
+
+/// The same for the coming frame alone when it has been flown already, forces included. Returns how many of
+/// the watched contacts may close; these are state.certificate.expired.
+std::size_t look_at_flown(const StringModel& model, StringState& state, std::size_t watched) JAWARI_REALTIME;
+
+/// The low modes' gaps do not go on into the coming frame: an impulse has acted.
+inline void forget_low_gaps(StringState& state) JAWARI_REALTIME {
+    std::vector<std::uint64_t>& known = state.certificate.lookout.gap_at;
+    std::fill(known.begin(), known.end(), std::numeric_limits<std::uint64_t>::max());
+}
 
 }  // namespace jawari

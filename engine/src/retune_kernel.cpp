@@ -1,5 +1,7 @@
 #include "retune_kernel.h"
 
+#include <cmath>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "retune_kernel.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
@@ -75,6 +77,7 @@ void retune(const StoppedStringModel& base, const Retuning& retuning, StringMode
     const Vec one = hn::Set(d, 1.0);
     const Vec h2 = hn::Set(d, h * h);
     const Vec highest2 = hn::Set(d, retuning.highest_omega * retuning.highest_omega);
+    Vec reach_growth = one, kick_growth = one;
     for (std::size_t k = 0; k < from.stride; k += hn::Lanes(d)) {
         const Vec number = hn::Add(hn::Iota(d, static_cast<double>(k)), one);
         const Vec omega = hn::Load(d, from.omega.data() + k);
@@ -115,11 +118,11 @@ void retune(const StoppedStringModel& base, const Retuning& retuning, StringMode
         keep(q_ramp, from.flight.q_ramp, bent.flight.q_ramp);
         keep(v_ramp, from.flight.v_ramp, bent.flight.v_ramp);
         keep(hn::Div(step.s, hn::Mul(hn::Set(d, 8.0), mobility)), from.kinetic, bent.kinetic);
-        keep(hn::Div(step.d, hn::Mul(hn::Mul(hn::Set(d, 2.0), mobility), h2)), from.potential,
-             bent.potential);
+        const Vec potential = hn::Div(step.d, hn::Mul(hn::Mul(hn::Set(d, 2.0), mobility), h2));
+        keep(potential, from.potential, bent.potential);
         CertificateModel& certificate = bent.certificate;
-        keep(hn::Div(hn::Mul(hn::Set(d, 4.0), step.d), hn::Mul(step.s, h2)), from.certificate.stiffness,
-             certificate.stiffness);
+        const Vec stiffness = hn::Div(hn::Mul(hn::Set(d, 4.0), step.d), hn::Mul(step.s, h2));
+        keep(stiffness, from.certificate.stiffness, certificate.stiffness);
         const Vec extent =
             hn::Sqrt(hn::Mul(hn::Mul(h2, hn::Set(d, 0.5)), hn::Mul(hn::Add(one, step.e), per_d)));
         const Vec lost = hn::Sub(one, step.e);
@@ -128,9 +131,20 @@ void retune(const StoppedStringModel& base, const Retuning& retuning, StringMode
             hn::Add(lost, hn::Sqrt(hn::MulAdd(lost_and_turned, lost_and_turned, hn::Mul(step.d, step.s))));
         const Vec sagitta = hn::Mul(hn::Set(d, h * m * m / 16), acceleration);
         keep(extent, from.certificate.extent, certificate.extent);
-        keep(hn::Min(sagitta, hn::Add(extent, extent)), from.certificate.detour, certificate.detour);
-        keep(hn::Mul(hn::Sqrt(hn::Mul(hn::Set(d, 2.0), quality)), mobility), from.certificate.kick,
-             certificate.kick);
+        const Vec detour = hn::Min(sagitta, hn::Add(extent, extent));
+        keep(detour, from.certificate.detour, certificate.detour);
+        const Vec kick = hn::Mul(hn::Sqrt(hn::Mul(hn::Set(d, 2.0), quality)), mobility);
+        keep(kick, from.certificate.kick, certificate.kick);
+        const auto was = [&](const AlignedVector<double>& old) { return hn::Load(d, old.data() + k); };
+        const auto growth = [&](Vec now, Vec before) {
+            return hn::IfThenElse(bends, hn::Div(now, before), one);
+        };
+        const Vec energy_growth = hn::Div(growth(stiffness, was(from.certificate.stiffness)),
+                                          growth(potential, was(from.potential)));
+        const Vec length_growth = hn::Max(growth(extent, was(from.certificate.extent)),
+                                          growth(detour, was(from.certificate.detour)));
+        reach_growth = hn::Max(reach_growth, hn::Mul(energy_growth, hn::Mul(length_growth, length_growth)));
+        kick_growth = hn::Max(kick_growth, growth(kick, was(from.certificate.kick)));
         const Vec old_u = hn::Load(d, backward_u + k);
         const Vec old_q = hn::Load(d, backward_q + k);
         const Vec share = hn::Div(step.backward_u, old_u);
@@ -141,6 +155,8 @@ void retune(const StoppedStringModel& base, const Retuning& retuning, StringMode
         hn::Store(hn::IfThenElse(bends, step.backward_u, old_u), d, backward_u + k);
         hn::Store(hn::IfThenElse(bends, step.backward_q, old_q), d, backward_q + k);
     }
+    bent.certificate.reach_growth = std::sqrt(hn::GetLane(hn::MaxOfLanes(d, reach_growth)));
+    bent.certificate.force_reach = from.certificate.force_reach * hn::GetLane(hn::MaxOfLanes(d, kick_growth));
 }
 
 }  // namespace jawari::kernels::HWY_NAMESPACE

@@ -7,6 +7,7 @@
 #include "certificate.h"
 #include "contact.h"
 #include "contact_kernels.h"
+#include "lookout.h"
 #include "short_motion_kernels.h"
 
 namespace jawari {
@@ -52,6 +53,7 @@ bool solve_short_frame(const StringModel& model, StringState& state) JAWARI_REAL
     if (struck) {
         state.active_modes = model.stride;
         state.certificate.outdated = true;
+        forget_low_gaps(state);
         finite = kernels::add_response(model, state) && finite;
     }
     state.certificate.struck = struck;

@@ -8,11 +8,24 @@
 
 namespace jawari {
 
+/// Only the first n rows and columns are ever set or read, and clearing the others would cost as much as
+/// solving.
 template <std::size_t N>
-struct SmallSystem {
-    std::array<std::array<double, N>, N> matrix{};
-    std::array<std::array<double, 2>, N> right{};  ///< becomes the solutions
+struct SmallSystem {  // NOLINT(cppcoreguidelines-pro-type-member-init)
+    std::array<std::array<double, N>, N> matrix;
+    std::array<std::array<double, 2>, N> right;  ///< becomes the solutions
 };
+
+/// Two unknowns by Cramer's rule. The matrix must be regular.
+inline void solve_two(SmallSystem<2>& s) noexcept {
+    const auto& m = s.matrix;
+    const double per_determinant = 1 / (m[0][0] * m[1][1] - m[0][1] * m[1][0]);
+    for (std::size_t c = 0; c < 2; ++c) {
+        const double x = (m[1][1] * s.right[0][c] - m[0][1] * s.right[1][c]) * per_determinant;
+        s.right[1][c] = (m[0][0] * s.right[1][c] - m[1][0] * s.right[0][c]) * per_determinant;
+        s.right[0][c] = x;
+    }
+}
 
 /// The first n rows and columns. The matrix must be regular.
 template <std::size_t N>

@@ -55,7 +55,8 @@ CertificateState make_certificate_state(const StringSizes& sizes) {
     for (auto* array : {&lookout.displacement, &lookout.velocity}) array->assign(lookout_modes, 0.0);
     for (auto* array : {&lookout.group_detour, &lookout.group_overtones}) array->assign(sizes.groups, 0.0);
     for (auto* array : {&lookout.gap, &lookout.gap_end}) array->assign(sizes.contacts, 0.0);
-    lookout.watched.assign(sizes.contacts, 0);
+    lookout.gap_at.assign(sizes.contacts, 0);
+    for (auto* list : {&lookout.watched, &lookout.unknown}) list->assign(sizes.contacts, 0);
     bounds.frame_gap_at.assign(sizes.contacts, 0);
     bounds.expired.assign(sizes.contacts, 0);
     for (auto* list : {&bounds.expired_groups, &bounds.missing_groups}) list->assign(sizes.groups, 0);
@@ -171,6 +172,7 @@ void reset(const StringModel& model, StringState& state) noexcept {
     std::copy(model.initial_velocity.begin(), model.initial_velocity.end(), state.velocity.begin());
     clear_excitation(state);
     state.frame = 0;
+    state.leaves_obstacles = false;
     state.certificate.strongest_speed = 0;
     state.certificate.strongest_extent = 0;
     place_obstacles(model, state.contact);
@@ -196,6 +198,11 @@ void notice_change(const StringModel& model, StringState& state) noexcept {
     state.asleep = false;
     choose_all_contacts(model, state);
     place_gaps(model, state);
+    forget_bounds(state);
+}
+
+void leave_obstacles(StringState& state) noexcept {
+    state.leaves_obstacles = true;
     forget_bounds(state);
 }
 

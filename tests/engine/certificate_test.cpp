@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "flight_kernels.h"
+#include "frame.h"
+#include "jawari/energy.h"
+#include "jawari/render.h"
 #include "jawari/step_coefficients.h"
 #include "scenes.h"
 #include "skipping_kernels.h"
@@ -207,6 +210,72 @@ TEST(Certificate, OdometersOfSharedGroupsNeverClaimMoreThanTheGap) {
         const std::vector<ProfilePoint> profile{{0, -0.05 * height}, {0.7 * string.length_m, -0.8 * height}};
         string.contacts = sampled_neck(string.length_m, 150, profile, 0);
         expect_true_claims(test::compiled_string(scene), 150, "seed " + std::to_string(seed));
+    }
+}
+
+/// Gaps fall below rest by no more than reach sqrt(H), whatever the modes share of the energy, and some state
+/// comes near it.
+TEST(Certificate, EnergyBoundsEveryGap) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        test::RandomScene random(seed);
+        SceneDescription scene = random.scene(ImpactLaw::Signorini, 48000, 1e6);
+        for (ContactDescription& contact : scene.strings[0].contacts) contact.height_m = -1;  // out of reach
+        const StringModel model = test::compiled_string(scene);
+        for (std::size_t c = 0; c < std::min<std::size_t>(model.contact_count, 3); ++c) {
+            const double* row = model.contact_rows.data() + c * model.stride;
+            const bool worst = seed % 2 == 0;
+            StringState state = make_string_state(model, Metering::Off, skip_nothing);
+            for (std::size_t k = 0; k < model.mode_count; ++k) {
+                state.velocity[k] = worst ? 0 : random.uniform(-1, 1);
+                state.displacement[k] =
+                    worst ? -row[k] / model.potential[k] : random.uniform(-1, 1) / model.omega[k];
+            }
+            notice_change(model, state);
+            const double bound = model.certificate.reach[c] * std::sqrt(energy(model, state));
+            double lowest = 0;
+            for (int n = 0; n < 20; ++n) {
+                for (state.steps_left = model.steps_per_frame; state.steps_left > 0;) {
+                    double sum = 0;
+                    for (std::size_t k = 0; k < model.mode_count; ++k) sum += row[k] * state.displacement[k];
+                    lowest = std::min(lowest, sum);
+                    step(model, state);
+                }
+            }
+            EXPECT_GE(lowest, -bound) << "seed " << seed << " contact " << c;
+            if (worst) {
+                EXPECT_LE(lowest, -0.3 * bound) << "seed " << seed << " contact " << c;
+            }
+        }
+    }
+}
+
+/// A force held over a frame bends the path between the frame's ends by no more than force_reach a newton.
+TEST(Certificate, ForcesBendAFrameByNoMoreThanTheirReach) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        test::RandomScene random(seed);
+        SceneDescription scene = random.scene(ImpactLaw::Signorini, 48000, 1e6);
+        for (ContactDescription& contact : scene.strings[0].contacts) contact.height_m = -1;
+        scene.strings[0].initial.shape = AtRest{};
+        const StringModel model = test::compiled_string(scene);
+        StringState state = make_string_state(model, Metering::Off, skip_nothing);
+        test::press(model, state, random.uniform(0.1, 0.9) * model.length_m, 1);
+        for (std::size_t c = 0; c < std::min<std::size_t>(model.contact_count, 3); ++c) {
+            const double* row = model.contact_rows.data() + c * model.stride;
+            const auto place = [&] {
+                double sum = 0;
+                for (std::size_t k = 0; k < model.mode_count; ++k) sum += row[k] * state.displacement[k];
+                return sum;
+            };
+            StringState rest = state;
+            std::vector<double> path{0};
+            for (state.steps_left = model.steps_per_frame; state.steps_left > 0;) {
+                step(model, state);
+                path.push_back(place());
+            }
+            const double ends = std::min(path.front(), path.back());
+            EXPECT_GE(*std::min_element(path.begin(), path.end()), ends - model.certificate.force_reach);
+            state = rest;
+        }
     }
 }
 

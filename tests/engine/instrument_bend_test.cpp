@@ -48,6 +48,35 @@ double bent_omega(const StoppedStringModel& stopped, std::size_t k, double semit
     return f0 * n * std::sqrt(tension + B * n * n);
 }
 
+/// The reach of a contact at the bent tension, from its definition, against the factor that retuning gives.
+TEST(Bend, TheReachOfEnergyGrowsByNoMoreThanItsFactor) {
+    const InstrumentModel model = one_string(false);
+    const StoppedStringModel& stopped = model.strings[0].stopped[0];
+    const auto reach_of = [](const StringModel& string, std::size_t c) {
+        double ends = 0, detours = 0;
+        for (std::size_t k = 0; k < string.mode_count; ++k) {
+            const double share = string.contact_rows[c * string.stride + k];
+            const double per_energy = string.certificate.stiffness[k] / string.potential[k] * share * share;
+            ends += per_energy * string.certificate.extent[k] * string.certificate.extent[k];
+            detours += per_energy * string.certificate.detour[k] * string.certificate.detour[k];
+        }
+        return std::sqrt(ends) + std::sqrt(detours);
+    };
+    for (const double semitones : {-24.0, -3.0, -0.1, 0.5, 7.0, 24.0}) {
+        Voice voice = ringing_voice(model);
+        PlayerWork work;
+        set_bend(stopped, voice, semitones, work);
+        const StringModel& bent = voice.bend.model;
+        ASSERT_EQ(bent.certificate.reach.size(), bent.contact_count);
+        const double now = reach_of(bent, 0);
+        const double claimed = bent.certificate.reach[0] * bent.certificate.reach_growth;
+        EXPECT_LE(now, claimed * (1 + 1e-9)) << semitones;
+        if (semitones < 0) {
+            EXPECT_GE(now, 0.9 * claimed) << semitones;
+        }
+    }
+}
+
 TEST(Bend, EveryCoefficientIsThatOfTheStringAtItsTension) {
     const InstrumentModel model = one_string(false);
     const StoppedStringModel& stopped = model.strings[0].stopped[0];

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "instrument_touch.h"
 #include "jawari/modes.h"
@@ -29,25 +30,56 @@ FlightModel random_flight(std::mt19937& random) {
     return flight;
 }
 
-TEST(InstrumentKernels, PathsAreWhatTheirFormulasSay) {
+/// Where the frame ends, less where it began, summed in long double.
+TEST(InstrumentKernels, FreePathsAreWhatTheirFormulasSay) {
     std::mt19937 random(3);
     const FlightModel flight = random_flight(random);
-    const auto q = random_row(random), v = random_row(random), row = random_row(random);
-    AlignedVector<double> middle(n), rise(n), path(n), moved(n);
+    const auto q = random_row(random), v = random_row(random);
     const double lag = 0.37;
-    kernels::free_path(n, lag, flight, q.data(), v.data(), middle.data(), rise.data());
-    const auto other = random_row(random);
-    kernels::path_since(n, lag, q.data(), v.data(), other.data(), path.data());
-    kernels::moved_by_held(n, lag, flight, row.data(), moved.data());
-    for (std::size_t k = 0; k < n; ++k) {
-        // Where the frame ends, less where it began.
-        const long double end_q = static_cast<long double>(flight.qq[k]) * q[k] + flight.qv[k] * v[k];
-        const long double end_v = static_cast<long double>(flight.vq[k]) * q[k] + flight.vv[k] * v[k];
-        EXPECT_NEAR(middle[k], q[k] - lag * v[k], 1e-15);
-        // FlightModel holds the change of q and v over the frame.
-        EXPECT_NEAR(rise[k], static_cast<double>(end_q - lag * end_v), 1e-14);
-        EXPECT_NEAR(path[k], q[k] - lag * v[k] - other[k], 1e-15);
-        EXPECT_NEAR(moved[k], row[k] * (flight.q_held[k] - lag * flight.v_held[k]), 1e-15);
+    std::vector<AlignedVector<double>> row;
+    for (std::size_t i = 0; i < touch_slots + 1; ++i) row.push_back(random_row(random));
+    for (std::size_t count = 1; count <= row.size(); ++count) {
+        kernels::TouchedRows rows;
+        rows.count = count;
+        for (std::size_t i = 0; i < count; ++i) rows.row[i] = row[i].data();
+        kernels::add_free_paths(0, 16, lag, flight, q.data(), v.data(), rows);
+        kernels::add_free_paths(16, n, lag, flight, q.data(), v.data(), rows);
+        for (std::size_t i = 0; i < count; ++i) {
+            long double middle = 0, rise = 0;
+            for (std::size_t k = 0; k < n; ++k) {
+                // FlightModel holds the change of q and v over the frame.
+                const long double to_q = static_cast<long double>(flight.qq[k]) * q[k] + flight.qv[k] * v[k];
+                const long double to_v = static_cast<long double>(flight.vq[k]) * q[k] + flight.vv[k] * v[k];
+                middle += row[i][k] * (q[k] - static_cast<long double>(lag) * v[k]);
+                rise += row[i][k] * (to_q - lag * to_v);
+            }
+            EXPECT_NEAR(rows.middle[i], static_cast<double>(middle), 1e-13) << count << " " << i;
+            EXPECT_NEAR(rows.rise[i], static_cast<double>(rise), 1e-13) << count << " " << i;
+        }
+    }
+}
+
+TEST(InstrumentKernels, HeldForcesMoveRowsAndAddUp) {
+    std::mt19937 random(4);
+    const FlightModel flight = random_flight(random);
+    const double lag = 0.37;
+    std::vector<AlignedVector<double>> row;
+    std::vector<const double*> rows;
+    for (std::size_t i = 0; i < touch_slots + 1; ++i) row.push_back(random_row(random));
+    for (const auto& one : row) rows.push_back(one.data());
+    const auto scales = random_row(random);
+    AlignedVector<double> moved(n), sum(n);
+    kernels::moved_by_held(n, lag, flight, row[0].data(), moved.data());
+    for (std::size_t k = 0; k < n; ++k)
+        EXPECT_NEAR(moved[k], row[0][k] * (flight.q_held[k] - lag * flight.v_held[k]), 1e-15);
+    for (std::size_t count = 1; count <= rows.size(); ++count) {
+        kernels::sum_rows(n, count, scales.data(), rows.data(), sum.data());
+        for (std::size_t k = 0; k < n; ++k) {
+            long double expected = 0;
+            for (std::size_t i = 0; i < count; ++i)
+                expected += static_cast<long double>(scales[i]) * row[i][k];
+            EXPECT_NEAR(sum[k], static_cast<double>(expected), 1e-14) << count;
+        }
     }
 }
 

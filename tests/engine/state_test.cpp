@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "frame.h"
 #include "scenes.h"
 
 namespace jawari {
@@ -107,6 +109,37 @@ TEST(State, PutToRestRestsAgainstTheObstaclesAndStays) {
     for (std::size_t n = 0; n < 500; ++n) {
         ASSERT_NEAR(samples[n], 1e-3, 1e-13) << n;
         ASSERT_NEAR(samples[500 + n], 0, 1e-8) << n;
+    }
+}
+
+/// As if there had never been any: against the same string without contacts.
+TEST_P(StateOfLaw, AStringThatLeavesItsObstaclesFliesFreely) {
+    for (const Skipping& skipping : {skip_all, skip_nothing}) {
+        test::RandomScene random(3);
+        SceneDescription scene = random.scene(GetParam(), 48000, 1e6);
+        const StringModel model = test::compiled_string(scene);
+        StringState state = make_string_state(model, Metering::Off, skipping);
+        for (int n = 0; n < 50; ++n) advance_frame(model, state);
+        leave_obstacles(state);
+        const std::uint64_t impulses = state.counters.impulses;
+        scene.strings[0].contacts = {};
+        const StringModel bare = test::compiled_string(scene);
+        StringState free = make_string_state(bare, Metering::Off, skip_nothing);
+        std::copy_n(state.displacement.begin(), model.stride, free.displacement.begin());
+        std::copy_n(state.velocity.begin(), model.stride, free.velocity.begin());
+        notice_change(bare, free);
+        double largest = 0;
+        for (int n = 0; n < 300; ++n) {
+            advance_frame(model, state);
+            advance_frame(bare, free);
+            for (std::size_t k = 0; k < model.mode_count; ++k) {
+                largest = std::max(largest, std::abs(free.displacement[k]));
+                ASSERT_NEAR(state.displacement[k], free.displacement[k], 1e-11 * largest) << n << " " << k;
+            }
+        }
+        EXPECT_EQ(state.counters.impulses, impulses);
+        reset(model, state);
+        EXPECT_FALSE(state.leaves_obstacles);
     }
 }
 

@@ -56,8 +56,9 @@ struct Voice {
     TouchState touches;
     BendState bend;
     SlideState slide;
-    std::uint64_t age = 0;  ///< frames since it began
-    bool fading = false;    ///< being taken away, see render_instrument()
+    std::uint64_t age = 0;            ///< frames since it began
+    bool fading = false;              ///< being taken away, see render_instrument()
+    bool rests_on_obstacles = false;  ///< its stop holds energy at rest
     std::size_t fade_frame = 0;
     std::size_t rise_frame = 0;  ///< of fading in after legato; at the shape's end: fully in
     VoiceGains gains;            ///< in force, following the target smoothly
@@ -102,9 +103,9 @@ struct PendingStroke {
     Stroke stroke;
 };
 
-/// Motions of a string that can be stopped: 1 sounding, 2 damped and 1 kept free for the next note. One that
+/// Motions of a string that can be stopped: 1 sounding, 1 damped and 1 kept free for the next note. One that
 /// only sounds open has one.
-inline constexpr std::size_t voices_per_string = 4;
+inline constexpr std::size_t voices_per_string = 3;
 inline constexpr std::size_t no_voice = std::numeric_limits<std::size_t>::max();
 inline constexpr int midi_channels = 16;
 

@@ -21,6 +21,13 @@ enum class TouchSlot : std::size_t {
 };
 inline constexpr std::size_t touch_slots = 7;
 
+/// Where a force acts over the current frame. With w = phi (q - h v/2) there:
+struct TouchedPoint {
+    double force_N = 0;  ///< held
+    double start_m = 0;  ///< w at the frame's start
+    double path_m = 0;   ///< its change over the frame if no contact acts
+};
+
 /// A dashpot and a spring at a place: F = -c dw/dt - k (w - rest).
 struct Touch {
     bool active = false;
@@ -36,8 +43,8 @@ struct Touch {
     double x_m = 0, width_m = 0, sweep_m = 0;
     std::uint64_t age = 0;      ///< frames since it was laid
     std::size_t modes = 0;      ///< that it reaches (padded); `row` counts up to here
-    AlignedVector<double> row;  ///< phi_k averaged over the width [m^(-1/2)]
-    double force_N = 0;         ///< held over the current frame
+    AlignedVector<double> row;  ///< phi_k averaged over the width [m^(-1/2)]; 0 from `modes` on
+    TouchedPoint point;
 };
 
 enum class ExciterPhase { None, Finger, Hammer, Tangent };
@@ -57,7 +64,7 @@ struct ExciterState {
     double exponent = 0;   ///< p
     double loss_s_per_m = 0;
     bool has_touched = false;
-    double force_N = 0;  ///< held over the current frame
+    TouchedPoint point;
 };
 
 struct TouchState {
@@ -65,9 +72,8 @@ struct TouchState {
     ExciterState exciter;
     /// G_ij = displacement at i at a frame's end per newton held at j [m/N]; the exciter is last.
     std::array<double, (touch_slots + 1) * (touch_slots + 1)> compliance{};
-    bool outdated = true;          ///< compliance must be computed anew
-    AlignedVector<double> middle;  ///< scratch: q - h v/2 at the frame's start
-    AlignedVector<double> rise;    ///< scratch: its change over the frame
+    bool outdated = true;         ///< compliance must be computed anew
+    AlignedVector<double> moved;  ///< scratch over modes
 };
 
 /// What players have done to the strings so far [J]. Each is measured as force times the path of its point.

@@ -33,6 +33,11 @@ struct CertificateModel {
     /// What 1 N s at contact c does to group g at most, groups x contact_count: how far a gap falls within a
     /// frame [m/(N s)] where the model has a response table, else the speed it gets [1/kg].
     std::vector<double> push;
+    /// A gap of contact c falls by at most reach[c] sqrt(H) below -b_c, at any step, while the string's
+    /// energy is below H [m/J^(1/2)]. Empty if it is not known.
+    std::vector<double> reach;
+    double reach_growth = 1;  ///< factor of all reaches after retuning
+    double force_reach = 0;   ///< and within a frame by this for each newton held on points of it [m/N]
 };
 
 /// Arrays over modes have length `stride` (the mode count N padded by modes at rest); rows over contacts are

@@ -80,8 +80,10 @@ struct LookoutState {
     AlignedVector<double> displacement, velocity;  ///< scratch over the low modes
     std::vector<double> group_detour;     ///< of the low modes, as CertificateState::group_detour [m]
     std::vector<double> group_overtones;  ///< what all other modes can displace a gap by [m]
-    std::vector<double> gap, gap_end;     ///< scratch per contact: of the low modes, at a frame's ends [m]
+    std::vector<double> gap, gap_end;     ///< per contact: of the low modes, at a frame's ends [m]
+    std::vector<std::uint64_t> gap_at;    ///< frame at whose start `gap` holds, under excitation
     std::vector<std::uint32_t> watched;   ///< scratch: contacts that the odometer does not certify far enough
+    std::vector<std::uint32_t> unknown;   ///< scratch
 };
 
 /// What the excitation adds to the bounds of every gap, docs/certificate.md, section 4.
@@ -130,6 +132,11 @@ struct CertificateState {
     bool struck = false;            ///< the last frame had impulses: the coming one most likely has
     bool direct = false;   ///< the coming frame looks at all gaps at both its ends; odometers stand still
     bool excited = false;  ///< the last refresh was made under excitation
+    /// The string has too little energy to reach any contact for as long as only passive forces act.
+    bool clear = false;
+    bool clear_limits_outdated = true;
+    double clear_energy_J = 0;  ///< below this it is clear,
+    double clear_force_N = 0;   ///< under passive forces of this strength together
     KickState kicks;
     double strongest_speed = 0;   ///< largest r_k ever [m^(3/2)/s]
     double strongest_extent = 0;  ///< largest |q_k| bound ever
@@ -188,6 +195,8 @@ struct ExcitationState {
     std::size_t modes = 0;       ///< both are zero from here on (padded): higher modes may sleep
     bool active = false;         ///< false: `held` is all zero
     bool ramps = false;
+    bool passive = false;   ///< the forces take energy over every frame in which no contact acts
+    double strength_N = 0;  ///< sum of their sizes, if passive
 };
 
 struct StringState {
@@ -199,6 +208,7 @@ struct StringState {
     std::uint64_t frame = 0;       ///< frames since make_state()
     std::size_t steps_left = 0;    ///< of the current frame, including the current step
     bool asleep = false;
+    bool leaves_obstacles = false;  ///< see leave_obstacles()
     CertificateState certificate;
     NearState near_frame;
     ShortFrameState short_frame;
@@ -247,6 +257,9 @@ void reset(const StringModel& model, StringState& state) noexcept;
 /// To be called when displacement, velocity, the model or the force row were changed from outside between
 /// frames: the gaps are computed anew, every bound is forgotten, a sleeping string wakes.
 void notice_change(const StringModel& model, StringState& state) noexcept;
+
+/// From now on, until reset(), the string meets no obstacle: for motions that are being taken away.
+void leave_obstacles(StringState& state) noexcept;
 
 /// At rest against the obstacles at their initial heights, without excitation; counters and meters stay. Does
 /// not allocate.
