@@ -108,7 +108,7 @@ template <std::size_t most>
 TouchAnswer answer_of(const StringModel& model, const TouchState& touches, const ActiveForces& active,
                       const kernels::TouchedRows& paths) {
     TouchAnswer answer;
-    SmallSystem<most> system;
+    SmallSystem<most> system;  // NOLINT(cppcoreguidelines-pro-type-member-init): the first n are set
     const std::size_t n = active.touches;
     for (std::size_t a = 0; a < n; ++a) {
         const std::size_t i = active.index[a];
