@@ -1,0 +1,50 @@
+// Plays hostile scenes and hostile music, each named by a seed, and checks every block. Prints one line of
+// JSON a seed; a violation also prints the command that replays it. docs/stability.md.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdint>
+
+#include "report.h"
+#include "scene_run.h"
+
+namespace jawari::stress {
+namespace {
+
+struct Options {
+    std::uint64_t seed = 0, first = 0, count = 0;
+    Budget budget;
+    bool verbose = false;
+};
+
+/// Returns the number of violations.
+std::size_t play(std::uint64_t seed, const Options& options) {
+    const Report report = run_scene(seed, options.budget);
+    std::printf("%s\n", json_line(report).c_str());
+    std::fflush(stdout);
+    const std::string lines = violation_lines(report);
+    if (!lines.empty()) std::fprintf(stderr, "%s", lines.c_str());
+    return report.judge.violations().size();
+}
+
+}  // namespace
+}  // namespace jawari::stress
+
+int main(int argc, char** argv) {
+    using namespace jawari::stress;
+    Options options;
+    CLI::App app("Plays hostile scenes and checks what is proven of them");
+    auto* seed = app.add_option("--seed", options.seed, "play this one");
+    app.add_option("--first", options.first, "first of a range of seeds")->excludes(seed);
+    app.add_option("--count", options.count, "seeds of the range")->excludes(seed);
+    app.add_option("--blocks", options.budget.blocks, "blocks of each scene, instead of --cpu");
+    app.add_option("--cpu", options.budget.cpu_s, "seconds of CPU time a scene")->check(CLI::Range(1e-4, 1e4));
+    app.add_flag("--verbose", options.verbose, "describe each scene");
+    CLI11_PARSE(app, argc, argv);
+    std::size_t violations = 0;
+    if (*seed) {
+        violations = play(options.seed, options);
+    } else {
+        for (std::uint64_t n = 0; n < options.count; ++n) violations += play(options.first + n, options);
+    }
+    return violations == 0 ? 0 : 1;
+}

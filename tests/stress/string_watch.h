@@ -1,0 +1,59 @@
+// Checks one string of a scene at the end of every block against what is proven of it.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "judge.h"
+#include "jawari/model.h"
+#include "jawari/state.h"
+#include "reach.h"
+
+namespace jawari::stress {
+
+/// Rounding bounds of a string, as multiples of H.
+struct RoundingBounds {
+    double step = 0;     ///< of the balance of one step
+    double impulse = 0;  ///< of the work of one impulse
+};
+
+class StringWatch {
+  public:
+    StringWatch(const StringModel& model, const StringState& start, std::string name);
+
+    /// After the player has acted, before the block is rendered.
+    void begin_block(const StringState& state);
+    /// After it has been rendered. outputs[p]: the block's values of the string's probe p.
+    void end_block(const StringState& state, std::span<const std::span<const double>> outputs, Judge& judge);
+
+    /// Bound of H at all steps so far.
+    [[nodiscard]] double highest_energy() const { return highest_; }
+
+  private:
+    void raise_bounds(const StringState& state);
+    void check_energy(const StringState& state, Judge& judge) const;
+    void check_gaps(const StringState& state, Judge& judge) const;
+    void check_counters(const StringState& state, Judge& judge) const;
+    void check_outputs(std::span<const std::span<const double>> outputs, Judge& judge) const;
+    [[nodiscard]] double depth_bound(std::size_t contact) const;
+    [[nodiscard]] double gap_rounding(std::size_t contact) const;
+    [[nodiscard]] double lag_work(const StringState& state) const;
+
+    const StringModel& model_;
+    std::string name_;
+    std::vector<Reach> contacts_, probes_;
+    RoundingBounds rounding_;
+    bool may_be_unsolvable_ = false;
+    double highest_ = 0;      ///< bound of H at all steps so far
+    double start_depth_ = 0;  ///< largest -gap of the initial state and of the step before it
+    double rise_ = 0;         ///< fastest movement of an obstacle [m per step]
+    double kick_ = 0;         ///< largest change of a gap by forces in one step [m]
+    double highest_obstacle_ = 0;
+    // of the block
+    double before_ = 0;     ///< H - F w
+    double force_arm_ = 0;  ///< |F w| <= this sqrt(H)
+    std::uint64_t impulses_before_ = 0, frame_before_ = 0;
+};
+
+}  // namespace jawari::stress
