@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "report.h"
-#include "scene_run.h"
+#include "run_seed.h"
 
 namespace jawari::stress {
 namespace {
@@ -17,8 +17,8 @@ struct Options {
 };
 
 /// Returns the number of violations.
-std::size_t play(std::uint64_t seed, const Options& options) {
-    const Report report = run_scene(seed, options.budget);
+std::size_t play(const PresetShelf& shelf, std::uint64_t seed, const Options& options) {
+    const Report report = run_seed(shelf, seed, options.budget);
     std::printf("%s\n", json_line(report).c_str());
     std::fflush(stdout);
     const std::string lines = violation_lines(report);
@@ -40,11 +40,17 @@ int main(int argc, char** argv) {
     app.add_option("--cpu", options.budget.cpu_s, "seconds of CPU time a scene")->check(CLI::Range(1e-4, 1e4));
     app.add_flag("--verbose", options.verbose, "describe each scene");
     CLI11_PARSE(app, argc, argv);
+    const PresetShelf shelf = factory_presets();
+    if (shelf.presets.empty()) {
+        std::fprintf(stderr, "jawari_stress: the built-in presets cannot be read\n");
+        return 2;
+    }
     std::size_t violations = 0;
     if (*seed) {
-        violations = play(options.seed, options);
+        violations = play(shelf, options.seed, options);
     } else {
-        for (std::uint64_t n = 0; n < options.count; ++n) violations += play(options.first + n, options);
+        for (std::uint64_t n = 0; n < options.count; ++n)
+            violations += play(shelf, options.first + n, options);
     }
     return violations == 0 ? 0 : 1;
 }

@@ -1,0 +1,175 @@
+#include "instrument_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "instrument_voice.h"
+#include "invariants.h"
+#include "jawari/energy.h"
+#include "reach.h"
+#include "string_watch.h"
+
+namespace jawari::stress {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+/// A string does not come closer to a magnet than a fifth of its distance (pickup_signal, instrument_pickup.cpp).
+constexpr double strongest_magnet = 125;
+
+double total(const PlayerWork& work) {
+    return work.exciters_J + work.touches_J + work.bends_J + work.transfers_J + work.rungs_J;
+}
+
+double size_of(const PlayerWork& work) {
+    return std::abs(work.exciters_J) + std::abs(work.touches_J) + std::abs(work.bends_J) +
+           std::abs(work.transfers_J) + std::abs(work.rungs_J);
+}
+
+double impulse_rounding_of(const StringModel& model) {
+    double largest = 0;
+    for (std::size_t c = 0; c < model.contact_count; ++c)
+        largest = std::max(largest, impulse_rounding_share(
+                                        model, {model.contact_rows.data() + c * model.stride, model.stride}));
+    return largest;
+}
+
+std::vector<std::vector<double>> impulse_roundings(const std::vector<InstrumentStringModel>& strings) {
+    std::vector<std::vector<double>> all;
+    for (const InstrumentStringModel& string : strings) {
+        all.emplace_back();
+        for (const StoppedStringModel& stopped : string.stopped)
+            all.back().push_back(impulse_rounding_of(stopped.string));
+    }
+    return all;
+}
+
+/// Forces held over a frame, with the rounding of their paths.
+double touch_rounding(const StringModel& model, const Voice& voice, double energy_J) {
+    double sum = 0;
+    const auto add = [&](double force_N, const AlignedVector<double>& row) {
+        if (force_N != 0) sum += std::abs(force_N) * bound_of(reach_of(model, row).extent, energy_J);
+    };
+    for (const Touch& touch : voice.touches.touches) add(touch.force_N, touch.row);
+    add(voice.touches.exciter.force_N, voice.touches.exciter.row);
+    return eps * (20 + static_cast<double>(model.mode_count)) * sum;
+}
+
+}  // namespace
+
+InstrumentWatch::InstrumentWatch(const InstrumentModel& model, const InstrumentDescription& description)
+    : model_(model), passive_(description.law != ImpactLaw::Newton || !description.contacts) {
+    impulse_rounding_.push_back(impulse_roundings(model.strings));
+    for (const auto& lower : model.lower) impulse_rounding_.push_back(impulse_roundings(lower));
+    for (std::size_t i = 0; i < model.body.count; ++i) {
+        // v = integral of exp(-sigma t) (cos Wt - sigma/W sin Wt) F: at most omega/(W sigma) times max |F|.
+        const double omega = 2 * 3.14159265358979323846 * description.body[i].frequency_hz;
+        const double sigma = std::min(std::log(1000.0) / description.body[i].t60_s, 0.9 * omega);
+        const double answer = omega / (std::sqrt(omega * omega - sigma * sigma) * sigma);
+        body_left_ += std::abs(model.body.gain_left[i]) * answer;
+        body_right_ += std::abs(model.body.gain_right[i]) * answer;
+    }
+}
+
+InstrumentWatch::Energies InstrumentWatch::energies_of(const InstrumentState& state) const {
+    Energies sum;
+    for (std::size_t s = 0; s < state.strings.size(); ++s) {
+        const InstrumentStringModel& string = string_of(model_, state, s);
+        for (const Voice& voice : state.strings[s].voices) {
+            if (voice.phase == VoicePhase::Idle) continue;
+            const StringModel& model = voice_model(string, voice);
+            const double energy_J = energy(model, voice.string);
+            const RoundingBounds rounding =
+                rounding_bounds(model, impulse_rounding_[state.strings[s].rung][s][voice.fret]);
+            sum.beyond_rest += energy_J - string.stopped[voice.fret].held_energy_J;
+            sum.largest += energy_J;
+            sum.rounding += rounding.step * energy_J + touch_rounding(model, voice, energy_J);
+            sum.impulse += (rounding.step + rounding.impulse) * energy_J;
+        }
+    }
+    return sum;
+}
+
+void InstrumentWatch::remember_motions(const InstrumentState& state) {
+    heard_.resize(state.strings.size());
+    for (std::size_t s = 0; s < state.strings.size(); ++s) {
+        heard_[s].clear();
+        for (const Voice& voice : state.strings[s].voices)
+            heard_[s].push_back(voice.phase == VoicePhase::Idle ? 0 : voice.bend.active ? 2 : 1);
+    }
+}
+
+void InstrumentWatch::begin_piece(const InstrumentState& state) {
+    before_ = energies_of(state);
+    work_before_ = state.work;
+    impulses_before_ = contact_counters(state).impulses;
+    remember_motions(state);
+}
+
+void InstrumentWatch::check_energy(const InstrumentState& state, double frames, Judge& judge) {
+    if (!passive_) return;
+    const Energies now = energies_of(state);
+    const double work = total(state.work) - total(work_before_);
+    // A hand-over leaves the old motion to fade, with the energy that its work counts as taken.
+    const bool handed_over = state.work.transfers_J != work_before_.transfers_J;
+    const double left_behind = handed_over ? before_.largest + std::abs(work) : 0.0;
+    const double impulses =
+        static_cast<double>(contact_counters(state).impulses - impulses_before_);
+    const double allowed = (frames + 2) * (before_.rounding + now.rounding) +
+                           impulses * (before_.impulse + now.impulse) +
+                           16 * eps * (size_of(state.work) + size_of(work_before_)) + left_behind;
+    judge.at_most(Invariant::EnergyRise, now.beyond_rest - before_.beyond_rest - work, allowed, "instrument");
+}
+
+void InstrumentWatch::add_bounds(const InstrumentState& state, std::size_t s, std::size_t v,
+                                 Bounds& bounds) const {
+    const Voice& voice = state.strings[s].voices[v];
+    const std::uint8_t heard = v < heard_[s].size() ? heard_[s][v] : 0;
+    if (voice.phase == VoicePhase::Idle && heard == 0) return;
+    const InstrumentStringModel& string = string_of(model_, state, s);
+    const StoppedStringModel& stopped = string.stopped[voice.fret];
+    // A motion that has ended in this piece was heard in it, at the tension that it had.
+    const bool bent = voice.phase == VoicePhase::Idle ? heard == 2 : voice.bend.active;
+    const StringModel& model = bent ? voice.bend.model : stopped.string;
+    const double energy_J = energy(model, voice.string);
+    double signal = 0;
+    for (std::size_t i = 0; i < model_.pickups.size(); ++i) {
+        const PickupDescription& pickup = model_.pickups[i];
+        const Reach reach = reach_of(model, {stopped.pickup_rows.data() + i * model.stride, model.stride});
+        const bool of_velocity = pickup.quantity == PickupQuantity::Velocity;
+        double most = of_velocity ? bound_of(reach.speed, energy_J)
+                                  : bound_of(reach.extent, energy_J) + std::abs(stopped.pickup_rest[i]);
+        if (of_velocity && pickup.magnet_distance_m > 0) most *= strongest_magnet;
+        signal += std::abs(pickup.level) * most;
+    }
+    bounds.left += std::abs(voice.gains.level * voice.gains.left) * signal;
+    bounds.right += std::abs(voice.gains.level * voice.gains.right) * signal;
+    if (model_.body.count == 0) return;
+    const Reach reach = reach_of(model, {stopped.bridge_row.data(), model.stride});
+    bounds.bridge_N += std::abs(voice.gains.level * voice.gains.body) *
+                       (bound_of(reach.extent, energy_J) + std::abs(stopped.bridge_rest_N));
+}
+
+/// Only where the piece is one frame is the energy known at which it was heard.
+void InstrumentWatch::check_sound(const InstrumentState& state, const Piece& piece, Judge& judge) {
+    if (piece.left.size() != 1) return;
+    Bounds bounds;
+    for (std::size_t s = 0; s < state.strings.size(); ++s) {
+        for (std::size_t v = 0; v < state.strings[s].voices.size(); ++v) add_bounds(state, s, v, bounds);
+    }
+    largest_bridge_N_ = std::max(largest_bridge_N_, bounds.bridge_N);
+    const auto body = [&](double answer) { return answer > 0 ? answer * largest_bridge_N_ : 0.0; };
+    check_output(judge, piece.left, bounds.left + body(body_left_), "left");
+    check_output(judge, piece.right, bounds.right + body(body_right_), "right");
+}
+
+void InstrumentWatch::end_piece(const InstrumentState& state, const Piece& piece, Judge& judge) {
+    check_finite(judge, piece.left, "left");
+    check_finite(judge, piece.right, "right");
+    check_resets(judge, contact_counters(state).nonfinite_resets, "strings");
+    check_resets(judge, state.body.nonfinite_resets, "body");
+    check_energy(state, static_cast<double>(piece.left.size()), judge);
+    check_sound(state, piece, judge);
+}
+
+}  // namespace jawari::stress

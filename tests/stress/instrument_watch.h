@@ -1,0 +1,56 @@
+// Checks a whole instrument after every few frames: energy against the player's work, and the output's bound.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "judge.h"
+#include "jawari/instrument_model.h"
+#include "jawari/instrument_state.h"
+
+namespace jawari::stress {
+
+/// Stereo samples of one piece of a performance.
+struct Piece {
+    std::span<const double> left, right;
+};
+
+class InstrumentWatch {
+  public:
+    /// `law_is_passive`: what obstacles do cannot raise the energy (all laws but newton).
+    InstrumentWatch(const InstrumentModel& model, const InstrumentDescription& description);
+
+    void begin_piece(const InstrumentState& state);
+    void end_piece(const InstrumentState& state, const Piece& piece, Judge& judge);
+
+  private:
+    struct Energies {
+        double beyond_rest = 0;  ///< sum over motions of H less what obstacles hold
+        double largest = 0;      ///< sum of H
+        double rounding = 0;     ///< of one frame [J]
+        double impulse = 0;      ///< of one impulse [J]
+    };
+    struct Bounds {
+        double left = 0, right = 0;  ///< of the pickups' sum
+        double bridge_N = 0;
+    };
+
+    [[nodiscard]] Energies energies_of(const InstrumentState& state) const;
+    void add_bounds(const InstrumentState& state, std::size_t s, std::size_t v, Bounds& bounds) const;
+    void check_energy(const InstrumentState& state, double frames, Judge& judge);
+    void check_sound(const InstrumentState& state, const Piece& piece, Judge& judge);
+    void remember_motions(const InstrumentState& state);
+
+    const InstrumentModel& model_;
+    bool passive_ = true;
+    std::vector<std::vector<std::vector<double>>> impulse_rounding_;  ///< [rung][string][fret]
+    double body_left_ = 0, body_right_ = 0;  ///< most that the body answers to a force of at most 1 N
+    double largest_bridge_N_ = 0;
+    Energies before_;
+    PlayerWork work_before_;
+    std::uint64_t impulses_before_ = 0;
+    std::vector<std::vector<std::uint8_t>> heard_;  ///< [string][voice]: 1 compiled, 2 bent at the piece's start
+};
+
+}  // namespace jawari::stress
