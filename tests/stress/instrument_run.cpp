@@ -58,7 +58,7 @@ struct Stage {
 
 void play_checked(const Stage& stage, std::size_t piece_frames, Report& report, InstrumentState& state,
                   Sound& sound) {
-    InstrumentWatch watch(stage.model, stage.hostile.description);
+    InstrumentWatch watch(stage.model, stage.hostile.description, piece_frames == 1);
     HostileMusic music(stage.model, report.seed);
     while (stage.goes_on(report)) {
         const MusicBlock block = music.next();

@@ -8,7 +8,6 @@
 #include "invariants.h"
 #include "jawari/energy.h"
 #include "reach.h"
-#include "string_watch.h"
 
 namespace jawari::stress {
 namespace {
@@ -26,20 +25,23 @@ double size_of(const PlayerWork& work) {
            std::abs(work.transfers_J) + std::abs(work.rungs_J);
 }
 
-double impulse_rounding_of(const StringModel& model) {
-    double largest = 0;
-    for (std::size_t c = 0; c < model.contact_count; ++c)
-        largest = std::max(largest, impulse_rounding_share(
-                                        model, {model.contact_rows.data() + c * model.stride, model.stride}));
+ContactReach contact_reach(const StringModel& model) {
+    ContactReach largest;
+    for (std::size_t c = 0; c < model.contact_count; ++c) {
+        const std::span<const double> row{model.contact_rows.data() + c * model.stride, model.stride};
+        largest.impulse = std::max(largest.impulse, 2 / kick_of(model, row));
+        largest.extent = std::max(largest.extent, reach_of(model, row).extent);
+        largest.height_m = std::max(largest.height_m, std::abs(model.contact_height[c]));
+    }
     return largest;
 }
 
-std::vector<std::vector<double>> impulse_roundings(const std::vector<InstrumentStringModel>& strings) {
-    std::vector<std::vector<double>> all;
+std::vector<std::vector<ContactReach>> contact_reaches(const std::vector<InstrumentStringModel>& strings) {
+    std::vector<std::vector<ContactReach>> all;
     for (const InstrumentStringModel& string : strings) {
         all.emplace_back();
         for (const StoppedStringModel& stopped : string.stopped)
-            all.back().push_back(impulse_rounding_of(stopped.string));
+            all.back().push_back(contact_reach(stopped.string));
     }
     return all;
 }
@@ -52,15 +54,18 @@ double touch_rounding(const StringModel& model, const Voice& voice, double energ
     };
     for (const Touch& touch : voice.touches.touches) add(touch.force_N, touch.row);
     add(voice.touches.exciter.force_N, voice.touches.exciter.row);
-    return eps * (20 + static_cast<double>(model.mode_count)) * sum;
+    return eps * operations(model) * sum;
 }
 
 }  // namespace
 
-InstrumentWatch::InstrumentWatch(const InstrumentModel& model, const InstrumentDescription& description)
-    : model_(model), passive_(description.law != ImpactLaw::Newton || !description.contacts) {
-    impulse_rounding_.push_back(impulse_roundings(model.strings));
-    for (const auto& lower : model.lower) impulse_rounding_.push_back(impulse_roundings(lower));
+InstrumentWatch::InstrumentWatch(const InstrumentModel& model, const InstrumentDescription& description,
+                                 bool frame_by_frame)
+    : model_(model),
+      frame_by_frame_(frame_by_frame),
+      passive_(description.law != ImpactLaw::Newton || !description.contacts) {
+    contacts_.push_back(contact_reaches(model.strings));
+    for (const auto& lower : model.lower) contacts_.push_back(contact_reaches(lower));
     for (std::size_t i = 0; i < model.body.count; ++i) {
         // v = integral of exp(-sigma t) (cos Wt - sigma/W sin Wt) F: at most omega/(W sigma) times max |F|.
         const double omega = 2 * 3.14159265358979323846 * description.body[i].frequency_hz;
@@ -79,12 +84,13 @@ InstrumentWatch::Energies InstrumentWatch::energies_of(const InstrumentState& st
             if (voice.phase == VoicePhase::Idle) continue;
             const StringModel& model = voice_model(string, voice);
             const double energy_J = energy(model, voice.string);
-            const RoundingBounds rounding =
-                rounding_bounds(model, impulse_rounding_[state.strings[s].rung][s][voice.fret]);
+            const ContactReach& reach = contacts_[state.strings[s].rung][s][voice.fret];
+            const double gap_size = bound_of(reach.extent, energy_J) + reach.height_m;
+            const double of_step = step_rounding(model) * energy_J;
             sum.beyond_rest += energy_J - string.stopped[voice.fret].held_energy_J;
             sum.largest += energy_J;
-            sum.rounding += rounding.step * energy_J + touch_rounding(model, voice, energy_J);
-            sum.impulse += (rounding.step + rounding.impulse) * energy_J;
+            sum.rounding += of_step + touch_rounding(model, voice, energy_J);
+            sum.impulse += of_step + work_rounding(model, bound_of(reach.impulse, energy_J), gap_size);
         }
     }
     return sum;
@@ -150,9 +156,8 @@ void InstrumentWatch::add_bounds(const InstrumentState& state, std::size_t s, st
                        (bound_of(reach.extent, energy_J) + std::abs(stopped.bridge_rest_N));
 }
 
-/// Only where the piece is one frame is the energy known at which it was heard.
 void InstrumentWatch::check_sound(const InstrumentState& state, const Piece& piece, Judge& judge) {
-    if (piece.left.size() != 1) return;
+    if (!frame_by_frame_) return;
     Bounds bounds;
     for (std::size_t s = 0; s < state.strings.size(); ++s) {
         for (std::size_t v = 0; v < state.strings[s].voices.size(); ++v) add_bounds(state, s, v, bounds);

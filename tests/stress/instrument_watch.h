@@ -16,10 +16,18 @@ struct Piece {
     std::span<const double> left, right;
 };
 
+/// Largest over a string's contacts, reach.h.
+struct ContactReach {
+    double impulse = 0;  ///< lambda <= this sqrt(H), as one impulse changes the velocity by at most 2 sqrt(H)
+    double extent = 0;
+    double height_m = 0;
+};
+
 class InstrumentWatch {
   public:
-    /// `law_is_passive`: what obstacles do cannot raise the energy (all laws but newton).
-    InstrumentWatch(const InstrumentModel& model, const InstrumentDescription& description);
+    /// `frame_by_frame`: every piece is one frame, so that the energy is known at which each was heard.
+    InstrumentWatch(const InstrumentModel& model, const InstrumentDescription& description,
+                    bool frame_by_frame);
 
     void begin_piece(const InstrumentState& state);
     void end_piece(const InstrumentState& state, const Piece& piece, Judge& judge);
@@ -43,8 +51,9 @@ class InstrumentWatch {
     void remember_motions(const InstrumentState& state);
 
     const InstrumentModel& model_;
-    bool passive_ = true;
-    std::vector<std::vector<std::vector<double>>> impulse_rounding_;  ///< [rung][string][fret]
+    bool frame_by_frame_ = false;
+    bool passive_ = true;  ///< what obstacles do cannot raise the energy: all laws but newton
+    std::vector<std::vector<std::vector<ContactReach>>> contacts_;  ///< [rung][string][fret]
     double body_left_ = 0, body_right_ = 0;  ///< most that the body answers to a force of at most 1 N
     double largest_bridge_N_ = 0;
     Energies before_;

@@ -18,6 +18,7 @@ struct Options {
 
 /// Returns the number of violations.
 std::size_t play(const PresetShelf& shelf, std::uint64_t seed, const Options& options) {
+    if (options.verbose) std::fprintf(stderr, "%s\n", describe_seed(shelf, seed).c_str());
     const Report report = run_seed(shelf, seed, options.budget);
     std::printf("%s\n", json_line(report).c_str());
     std::fflush(stdout);

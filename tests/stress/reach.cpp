@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "jawari/modes.h"
 
@@ -45,12 +44,11 @@ double rounding_share(const StringModel& model) {
     return largest;
 }
 
-double impulse_rounding_share(const StringModel& model, std::span<const double> row) {
+double kick_of(const StringModel& model, std::span<const double> row) {
     double kick = 0;
     for (std::size_t k = 0; k < model.mode_count; ++k)
         kick += model.kinetic[k] * square(model.mobility[k] * row[k]);
-    if (!(kick > 0)) return std::numeric_limits<double>::infinity();
-    return reach_of(model, row).extent / (model.step_s * std::sqrt(kick));
+    return std::sqrt(kick);
 }
 
 AlignedVector<double> shape_row(const StringModel& model, double x) {

@@ -30,9 +30,8 @@ double bound_of(double reach, double energy_J);
 /// on q.
 double rounding_share(const StringModel& model);
 
-/// Rounding of an impulse's work as a multiple of eps H. A gap's rounding eps |S q| works by lambda/(2h); an
-/// impulse that changes the velocity by (w/mu) S lambda is at most 2 sqrt(H/sum kin (w/mu S)^2).
-double impulse_rounding_share(const StringModel& model, std::span<const double> row);
+/// Size of a velocity's change by an impulse of 1 N s on the row, in the norm sqrt(H).
+double kick_of(const StringModel& model, std::span<const double> row);
 
 /// phi_k(x), padded.
 AlignedVector<double> shape_row(const StringModel& model, double x);

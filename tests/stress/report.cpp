@@ -48,6 +48,7 @@ std::string json_line(const Report& report) {
     line += count_text("impulses", report.impulses) + count_text("notes", report.notes);
     line += count_text("truncated", report.truncated);
     line += formatted(", \"sound_s\": %.6g, \"cpu_s\": %.4f", report.sound_s, report.cpu_s);
+    if (report.exploded) line += ", \"exploded\": true";
     line += ", \"closest\": {";
     for (std::size_t i = 0; i < invariant_count; ++i) {
         const auto invariant = static_cast<Invariant>(i);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "hostile_instrument.h"
 #include "report.h"
@@ -9,6 +10,11 @@
 namespace jawari::stress {
 
 /// Every third seed plays an instrument.
+bool plays_instrument(std::uint64_t seed);
+
 Report run_seed(const PresetShelf& shelf, std::uint64_t seed, const Budget& budget);
+
+/// One line.
+std::string describe_seed(const PresetShelf& shelf, std::uint64_t seed);
 
 }  // namespace jawari::stress

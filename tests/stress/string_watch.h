@@ -12,10 +12,10 @@
 
 namespace jawari::stress {
 
-/// Rounding bounds of a string, as multiples of H.
-struct RoundingBounds {
-    double step = 0;     ///< of the balance of one step
-    double impulse = 0;  ///< of the work of one impulse
+/// Impulses on a string, added up over its contacts.
+struct Strikes {
+    double impulses_Ns = 0;
+    double kicks = 0;  ///< weighted by kick_of(), reach.h
 };
 
 class StringWatch {
@@ -24,6 +24,8 @@ class StringWatch {
 
     /// After the player has acted, before the block is rendered.
     void begin_block(const StringState& state);
+    /// After each of its frames.
+    void note_frame(const StringState& state);
     /// After it has been rendered. outputs[p]: the block's values of the string's probe p.
     void end_block(const StringState& state, std::span<const std::span<const double>> outputs, Judge& judge);
 
@@ -43,7 +45,10 @@ class StringWatch {
     const StringModel& model_;
     std::string name_;
     std::vector<Reach> contacts_, probes_;
-    RoundingBounds rounding_;
+    std::vector<double> kicks_;    ///< kick_of() of the contacts
+    double step_rounding_ = 0;     ///< share of H
+    double longest_extent_ = 0;    ///< of the contacts
+    Strikes strongest_, of_block_;  ///< largest of a frame so far; sum over the block
     bool may_be_unsolvable_ = false;
     double highest_ = 0;      ///< bound of H at all steps so far
     double start_depth_ = 0;  ///< largest -gap of the initial state and of the step before it
@@ -53,7 +58,8 @@ class StringWatch {
     // of the block
     double before_ = 0;     ///< H - F w
     double force_arm_ = 0;  ///< |F w| <= this sqrt(H)
-    std::uint64_t impulses_before_ = 0, frame_before_ = 0;
+    std::uint64_t impulses_before_ = 0;  ///< and of the frame
+    std::uint64_t block_impulses_ = 0, frame_before_ = 0;
 };
 
 }  // namespace jawari::stress
