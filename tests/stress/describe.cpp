@@ -31,8 +31,8 @@ void describe_string(const StringDescription& string, std::ostream& out) {
     describe_start(string.initial, out);
     out << ", " << string.contacts.size() << " contacts";
     if (!string.contacts.empty())
-        out << ", the first at " << string.contacts[0].position_m << " m, height " << string.contacts[0].height_m
-            << " m, e " << string.contacts[0].restitution;
+        out << ", the first at " << string.contacts[0].position_m << " m, height "
+            << string.contacts[0].height_m << " m, e " << string.contacts[0].restitution;
     static constexpr const char* quantities[] = {"displacement", "velocity", "contact force", "energy"};
     out << ", probes:";
     for (const ProbeDescription& probe : string.probes)

@@ -35,9 +35,7 @@ class Dice {
         return std::min(high, static_cast<std::size_t>(value));
     }
     bool chance(double probability) { return unit() < probability; }
-    double pick(std::initializer_list<double> values) {
-        return values.begin()[whole(0, values.size() - 1)];
-    }
+    double pick(std::initializer_list<double> values) { return values.begin()[whole(0, values.size() - 1)]; }
 
   private:
     std::uint64_t state_;

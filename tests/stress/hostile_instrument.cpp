@@ -46,7 +46,8 @@ void keep_strings(InstrumentDescription& instrument, Dice& dice) {
 
 /// The value times a factor up to `factor` either way, within its range.
 void warp(Dice& dice, double factor, double low, double high, double& value) {
-    if (value != 0 && dice.chance(0.5)) value = std::clamp(value * dice.spread(1 / factor, factor), low, high);
+    if (value != 0 && dice.chance(0.5))
+        value = std::clamp(value * dice.spread(1 / factor, factor), low, high);
 }
 
 void warp_string(Dice& dice, InstrumentStringDescription& string) {
@@ -107,7 +108,8 @@ void warp_sound(Dice& dice, InstrumentDescription& instrument) {
 }
 
 /// Few modes and steps, so that compiling and playing take milliseconds.
-QualityDescription choose_quality(const InstrumentDescription& instrument, double output_rate_hz, Dice& dice) {
+QualityDescription choose_quality(const InstrumentDescription& instrument, double output_rate_hz,
+                                  Dice& dice) {
     double highest_open = 10;
     for (const InstrumentStringDescription& string : instrument.strings)
         highest_open = std::max(highest_open, string.open_frequency_hz);
@@ -151,8 +153,8 @@ HostileInstrument make_hostile_instrument(const PresetShelf& shelf, std::uint64_
     InstrumentDescription& instrument = hostile.description;
     instrument = shelf.presets[dice.whole(0, shelf.presets.size() - 1)];
     hostile.kind = "instrument " + instrument.name;
-    hostile.output_rate_hz = dice.chance(0.6) ? dice.pick({44100, 48000, 96000})
-                                              : std::round(dice.spread(8000, 768000));
+    hostile.output_rate_hz =
+        dice.chance(0.6) ? dice.pick({44100, 48000, 96000}) : std::round(dice.spread(8000, 768000));
     keep_strings(instrument, dice);
     const bool warped = dice.chance(0.7);
     if (warped) {
@@ -164,7 +166,8 @@ HostileInstrument make_hostile_instrument(const PresetShelf& shelf, std::uint64_
     }
     instrument.studio.reset();
     instrument.quality = choose_quality(instrument, hostile.output_rate_hz, dice);
-    if (dice.chance(0.3)) hostile.lower = {lowered(instrument.quality, 0.5), lowered(instrument.quality, 0.2)};
+    if (dice.chance(0.3))
+        hostile.lower = {lowered(instrument.quality, 0.5), lowered(instrument.quality, 0.2)};
     return hostile;
 }
 

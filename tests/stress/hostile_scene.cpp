@@ -58,9 +58,7 @@ void choose_playing(Dice& dice, HostileScene& hostile) {
     hostile.forces = dice.chance(0.4);
     hostile.moves = dice.chance(0.25);
     const bool of_steps = hostile.moves || hostile.description.law == ImpactLaw::Newton || dice.chance(0.25);
-    hostile.metering = of_steps             ? Metering::Step
-                       : dice.chance(0.5) ? Metering::Frame
-                                            : Metering::Off;
+    hostile.metering = of_steps ? Metering::Step : dice.chance(0.5) ? Metering::Frame : Metering::Off;
     if (dice.chance(0.8)) return;
     hostile.skipping = {dice.chance(0.5), dice.chance(0.5), dice.chance(0.5), dice.chance(0.5),
                         dice.chance(0.5)};
@@ -78,8 +76,8 @@ StringPlan choose_plan(Dice& dice) {
 }
 
 std::string kind_of(const StringPlan& plan, const HostileScene& hostile) {
-    std::string kind = hostile.description.scheme == Scheme::Theta ? "theta"
-                                                                   : name_of(hostile.description.law);
+    std::string kind =
+        hostile.description.scheme == Scheme::Theta ? "theta" : name_of(hostile.description.law);
     if (plan.extreme) return kind + " extreme";
     if (plan.neck) return kind + " neck";
     return kind + (plan.tabled ? " tabled" : plan.lifted ? " lifted" : " string");

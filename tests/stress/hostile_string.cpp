@@ -16,8 +16,7 @@ void choose_body(const StringPlan& plan, Dice& dice, StringDescription& string, 
     string.linear_density_kg_per_m = plan.extreme ? dice.spread(1e-9, 1e7) : dice.spread(1e-6, 1);
     modes.tension_N = plan.extreme ? dice.spread(1e-8, 1e8) : dice.spread(1e-2, 1e5);
     modes.inharmonicity = dice.chance(0.3) ? 0.0 : dice.spread(1e-8, plan.extreme ? 1e3 : 0.1);
-    modes.inharmonicity_law =
-        dice.chance(0.5) ? InharmonicityLaw::SquareRoot : InharmonicityLaw::FirstOrder;
+    modes.inharmonicity_law = dice.chance(0.5) ? InharmonicityLaw::SquareRoot : InharmonicityLaw::FirstOrder;
 }
 
 std::variant<NoLoss, ValetteLoss, DecayTimePoints> choose_losses(Dice& dice) {
@@ -29,8 +28,8 @@ std::variant<NoLoss, ValetteLoss, DecayTimePoints> choose_losses(Dice& dice) {
                                dice.spread(1e-6, 1), dice.chance(0.2) ? 0.0 : dice.spread(1e-8, 10)};
         case 2: {
             const double slow = dice.spread(1e-4, 1e3);
-            return DecayTimePoints{{{{dice.spread(10, 1000), slow},
-                                     {dice.spread(1001, 1e5), slow * dice.spread(1e-4, 1)}}}};
+            return DecayTimePoints{
+                {{{dice.spread(10, 1000), slow}, {dice.spread(1001, 1e5), slow * dice.spread(1e-4, 1)}}}};
         }
         default:
             return DecayTimePoints{{{{100, dice.uniform(0.5, 10)}, {5000, dice.uniform(0.01, 0.5)}}}};
@@ -42,9 +41,9 @@ ModeTable choose_table(const StringPlan& plan, std::size_t count, Dice& dice) {
     ModeTable table;
     for (std::size_t k = 0; k < count; ++k) {
         const bool resonant = dice.chance(0.05);
-        table.frequency_hz.push_back(
-            resonant ? plan.contact_rate_hz / 2 * static_cast<double>(dice.whole(1, 4))
-                     : dice.spread(plan.extreme ? 1e-3 : 1.0, plan.extreme ? 1e9 : 1e6));
+        table.frequency_hz.push_back(resonant
+                                         ? plan.contact_rate_hz / 2 * static_cast<double>(dice.whole(1, 4))
+                                         : dice.spread(plan.extreme ? 1e-3 : 1.0, plan.extreme ? 1e9 : 1e6));
         table.decay_per_s.push_back(dice.chance(0.3) ? 0.0 : dice.spread(1e-3, plan.extreme ? 1e9 : 1e6));
     }
     return table;
@@ -65,8 +64,8 @@ ContactDescription choose_contact(const StringPlan& plan, Dice& dice, const Stri
                                   double height_m) {
     ContactDescription contact;
     contact.position_m = choose_place(dice, string.length_m);
-    const bool inside = contact.position_m > 1e-3 * string.length_m &&
-                        contact.position_m < (1 - 1e-3) * string.length_m;
+    const bool inside =
+        contact.position_m > 1e-3 * string.length_m && contact.position_m < (1 - 1e-3) * string.length_m;
     const double depth = dice.chance(0.1) ? 0.0 : dice.unit();
     const double sign = plan.lifted && inside && dice.chance(0.3) ? 1.0 : -1.0;
     contact.height_m = sign * height_m * depth;
@@ -83,7 +82,8 @@ void add_contacts(const StringPlan& plan, Dice& dice, StringDescription& string,
             contact.position_m = other.position_m;
             contact.height_m = dice.chance(0.5) ? other.height_m : std::min(other.height_m, contact.height_m);
             if (dice.chance(0.3))
-                contact.position_m = std::min(string.length_m, other.position_m * (1 + dice.spread(1e-15, 1e-3)));
+                contact.position_m =
+                    std::min(string.length_m, other.position_m * (1 + dice.spread(1e-15, 1e-3)));
         }
         string.contacts.push_back(contact);
     }
@@ -99,8 +99,7 @@ void add_neck(const StringPlan& plan, Dice& dice, StringDescription& string, dou
         {0, -height_m * dice.unit()},
         {string.length_m * dice.uniform(0.1, 0.9), -height_m * dice.unit()},
         {string.length_m, -height_m * dice.unit()}};
-    string.contacts =
-        sampled_neck(string.length_m, plan.sizes.contacts, profile, choose_restitution(dice));
+    string.contacts = sampled_neck(string.length_m, plan.sizes.contacts, profile, choose_restitution(dice));
 }
 
 InitialCondition choose_start(const StringPlan& plan, std::size_t modes, double length_m, double height_m,
@@ -147,7 +146,8 @@ PlannedString make_string(const StringPlan& plan, Dice& dice) {
     modes.damping = choose_losses(dice);
     string.modes = modes;
     if (plan.tabled) string.modes = choose_table(plan, plan.sizes.modes, dice);
-    const double height_m = string.length_m * dice.spread(plan.extreme ? 1e-9 : 1e-5, plan.extreme ? 10 : 0.02);
+    const double height_m =
+        string.length_m * dice.spread(plan.extreme ? 1e-9 : 1e-5, plan.extreme ? 10 : 0.02);
     planned.height_m = height_m;
     if (plan.neck) {
         add_neck(plan, dice, string, height_m);

@@ -13,7 +13,8 @@ namespace jawari::stress {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-/// A string does not come closer to a magnet than a fifth of its distance (pickup_signal, instrument_pickup.cpp).
+/// A string does not come closer to a magnet than a fifth of its distance (pickup_signal,
+/// instrument_pickup.cpp).
 constexpr double strongest_magnet = 125;
 
 double total(const PlayerWork& work) {
@@ -119,8 +120,7 @@ void InstrumentWatch::check_energy(const InstrumentState& state, double frames, 
     // A hand-over leaves the old motion to fade, with the energy that its work counts as taken.
     const bool handed_over = state.work.transfers_J != work_before_.transfers_J;
     const double left_behind = handed_over ? before_.largest + std::abs(work) : 0.0;
-    const double impulses =
-        static_cast<double>(contact_counters(state).impulses - impulses_before_);
+    const double impulses = static_cast<double>(contact_counters(state).impulses - impulses_before_);
     const double allowed = (frames + 2) * (before_.rounding + now.rounding) +
                            impulses * (before_.impulse + now.impulse) +
                            16 * eps * (size_of(state.work) + size_of(work_before_)) + left_behind;

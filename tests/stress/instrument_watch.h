@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "judge.h"
 #include "jawari/instrument_model.h"
 #include "jawari/instrument_state.h"
+#include "judge.h"
 
 namespace jawari::stress {
 
@@ -59,7 +59,8 @@ class InstrumentWatch {
     Energies before_;
     PlayerWork work_before_;
     std::uint64_t impulses_before_ = 0;
-    std::vector<std::vector<std::uint8_t>> heard_;  ///< [string][voice]: 1 compiled, 2 bent at the piece's start
+    std::vector<std::vector<std::uint8_t>>
+        heard_;  ///< [string][voice]: 1 compiled, 2 bent at the piece's start
 };
 
 }  // namespace jawari::stress

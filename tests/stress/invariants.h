@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "judge.h"
 #include "jawari/state.h"
+#include "judge.h"
 
 namespace jawari::stress {
 
@@ -56,9 +56,9 @@ void check_depth(Judge& judge, double depth, double allowed, const std::string& 
 void check_residual(Judge& judge, double residual, double travel, double rounding, const std::string& where);
 
 /// A solve is truncated only where more contacts press than the bound on active contacts, or where obstacles
-/// move against one another so that the string does not fit (docs/model.md, "The solver and its bound"). Where
-/// contacts depend on one another (coincident but for rounding, or more than modes) rounding may end one solve
-/// in a hundred; each stays passive.
+/// move against one another so that the string does not fit (docs/model.md, "The solver and its bound").
+/// Where contacts depend on one another (coincident but for rounding, or more than modes) rounding may end
+/// one solve in a hundred; each stays passive.
 void check_truncation(Judge& judge, const Counters& counters, bool independent, const std::string& where);
 
 /// |u|, |v| <= reach sqrt(H), see reach.h.

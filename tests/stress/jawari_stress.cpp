@@ -1,8 +1,8 @@
 // Plays hostile scenes and hostile music, each named by a seed, and checks every block. Prints one line of
 // JSON a seed; a violation also prints the command that replays it. docs/stability.md.
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <cstdint>
+#include <cstdio>
 
 #include "report.h"
 #include "run_seed.h"
@@ -38,7 +38,8 @@ int main(int argc, char** argv) {
     app.add_option("--first", options.first, "first of a range of seeds")->excludes(seed);
     app.add_option("--count", options.count, "seeds of the range")->excludes(seed);
     app.add_option("--blocks", options.budget.blocks, "blocks of each scene, instead of --cpu");
-    app.add_option("--cpu", options.budget.cpu_s, "seconds of CPU time a scene")->check(CLI::Range(1e-4, 1e4));
+    app.add_option("--cpu", options.budget.cpu_s, "seconds of CPU time a scene")
+        ->check(CLI::Range(1e-4, 1e4));
     app.add_flag("--verbose", options.verbose, "describe each scene");
     CLI11_PARSE(app, argc, argv);
     const PresetShelf shelf = factory_presets();

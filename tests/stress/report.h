@@ -14,7 +14,8 @@ struct Report {
     std::string refused;  ///< why compile() would not have it; empty if it did
     std::uint64_t blocks = 0, frames = 0, strings = 0, contacts = 0, impulses = 0, notes = 0;
     std::uint64_t truncated = 0;  ///< solves
-    bool exploded = false;  ///< energy near overflow, by a law that injects it or by the player: the scene ends there
+    bool exploded =
+        false;  ///< energy near overflow, by a law that injects it or by the player: the scene ends there
     double sound_s = 0;
     double cpu_s = 0;
     Judge judge;

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "judge.h"
 #include "jawari/model.h"
 #include "jawari/state.h"
+#include "judge.h"
 #include "reach.h"
 
 namespace jawari::stress {
@@ -45,9 +45,9 @@ class StringWatch {
     const StringModel& model_;
     std::string name_;
     std::vector<Reach> contacts_, probes_;
-    std::vector<double> kicks_;    ///< kick_of() of the contacts
-    double step_rounding_ = 0;     ///< share of H
-    double longest_extent_ = 0;    ///< of the contacts
+    std::vector<double> kicks_;     ///< kick_of() of the contacts
+    double step_rounding_ = 0;      ///< share of H
+    double longest_extent_ = 0;     ///< of the contacts
     Strikes strongest_, of_block_;  ///< largest of a frame so far; sum over the block
     bool may_be_unsolvable_ = false;
     double highest_ = 0;      ///< bound of H at all steps so far
@@ -56,8 +56,8 @@ class StringWatch {
     double kick_ = 0;         ///< largest change of a gap by forces in one step [m]
     double highest_obstacle_ = 0;
     // of the block
-    double before_ = 0;     ///< H - F w
-    double force_arm_ = 0;  ///< |F w| <= this sqrt(H)
+    double before_ = 0;                  ///< H - F w
+    double force_arm_ = 0;               ///< |F w| <= this sqrt(H)
     std::uint64_t impulses_before_ = 0;  ///< and of the frame
     std::uint64_t block_impulses_ = 0, frame_before_ = 0;
 };
