@@ -26,6 +26,13 @@ double size_of(const PlayerWork& work) {
            std::abs(work.transfers_J) + std::abs(work.rungs_J);
 }
 
+/// Sum of the amounts by which each kind of work has changed.
+double moved_since(const PlayerWork& before, const PlayerWork& now) {
+    return size_of({now.exciters_J - before.exciters_J, now.touches_J - before.touches_J,
+                    now.bends_J - before.bends_J, now.transfers_J - before.transfers_J,
+                    now.rungs_J - before.rungs_J});
+}
+
 ContactReach contact_reach(const StringModel& model) {
     ContactReach largest;
     for (std::size_t c = 0; c < model.contact_count; ++c) {
@@ -110,6 +117,7 @@ void InstrumentWatch::begin_piece(const InstrumentState& state) {
     before_ = energies_of(state);
     work_before_ = state.work;
     impulses_before_ = contact_counters(state).impulses;
+    hand_overs_before_ = state.counters.legato_notes;
     remember_motions(state);
 }
 
@@ -117,9 +125,11 @@ void InstrumentWatch::check_energy(const InstrumentState& state, double frames, 
     if (!passive_) return;
     const Energies now = energies_of(state);
     const double work = total(state.work) - total(work_before_);
-    // A hand-over leaves the old motion to fade, with the energy that its work counts as taken.
-    const bool handed_over = state.work.transfers_J != work_before_.transfers_J;
-    const double left_behind = handed_over ? before_.largest + std::abs(work) : 0.0;
+    // A hand-over leaves the old motion to fade, with the energy that its work counts as taken: at most all
+    // there is, and so on with the next.
+    const double hand_overs = static_cast<double>(state.counters.legato_notes - hand_overs_before_);
+    const double left_behind =
+        std::expm1(hand_overs * std::log(2.0)) * (before_.largest + moved_since(work_before_, state.work));
     const double impulses = static_cast<double>(contact_counters(state).impulses - impulses_before_);
     const double allowed = (frames + 2) * (before_.rounding + now.rounding) +
                            impulses * (before_.impulse + now.impulse) +

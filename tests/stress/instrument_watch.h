@@ -58,7 +58,7 @@ class InstrumentWatch {
     double largest_bridge_N_ = 0;
     Energies before_;
     PlayerWork work_before_;
-    std::uint64_t impulses_before_ = 0;
+    std::uint64_t impulses_before_ = 0, hand_overs_before_ = 0;
     std::vector<std::vector<std::uint8_t>>
         heard_;  ///< [string][voice]: 1 compiled, 2 bent at the piece's start
 };
