@@ -47,7 +47,7 @@ std::string describe(const HostileScene& hostile) {
     const SceneDescription& scene = hostile.description;
     out << hostile.kind << ": " << scene.output_rate_hz << " Hz, " << scene.contact_rate_hz << " Hz, "
         << meters[static_cast<std::size_t>(hostile.metering)] << (hostile.forces ? ", forces" : "")
-        << (hostile.moves ? ", moving obstacles" : "");
+        << (hostile.moves ? ", moving obstacles" : "") << (hostile.denormals ? ", denormals" : "");
     if (scene.scheme == Scheme::Theta) out << ", theta " << scene.theta;
     for (const StringDescription& string : scene.strings) describe_string(string, out);
     return out.str();

@@ -104,6 +104,7 @@ HostileScene make_hostile_scene(std::uint64_t seed) {
         plan.sizes.modes = std::min<std::size_t>(plan.sizes.modes, 50);
     }
     hostile.kind = kind_of(plan, hostile);
+    hostile.denormals = dice.chance(0.25);
     return hostile;
 }
 

@@ -15,9 +15,10 @@ struct HostileScene {
     SceneDescription description;
     Metering metering = Metering::Off;
     Skipping skipping;
-    bool forces = false;  ///< external forces are switched at random
-    bool moves = false;   ///< obstacles move; metered at every step
-    double height_m = 0;  ///< of obstacles and forces
+    bool forces = false;     ///< external forces are switched at random
+    bool moves = false;      ///< obstacles move; metered at every step
+    bool denormals = false;  ///< left on, as embedders may; else off, as when jawari plays and renders
+    double height_m = 0;     ///< of obstacles and forces
 };
 
 HostileScene make_hostile_scene(std::uint64_t seed);

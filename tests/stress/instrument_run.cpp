@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/cpu_clock.h"
+#include "common/denormals.h"
 #include "hostile_music.h"
 #include "instrument_watch.h"
 #include "invariants.h"
@@ -120,6 +121,7 @@ void count(const Stage& stage, const InstrumentState& state, Report& report) {
 }
 
 void play(const Stage& stage, Report& report) {
+    const host::NoDenormals guard;  // as jawari plays and renders
     Dice dice(report.seed + 1);
     const auto piece_frames = static_cast<std::size_t>(dice.pick({1, 1, 7, 64}));
     const PlayMode mode = dice.chance(0.3) ? PlayMode::Guitar : PlayMode::Keyboard;

@@ -1,9 +1,11 @@
 #include "scene_run.h"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "common/cpu_clock.h"
+#include "common/denormals.h"
 #include "hostile_scene.h"
 #include "invariants.h"
 #include "jawari/compile.h"
@@ -57,7 +59,8 @@ struct Stage {
 void play_checked(const Stage& stage, Report& report, SceneState& state, Sound& sound) {
     std::vector<StringWatch> watches;
     for (std::size_t s = 0; s < stage.model.strings.size(); ++s)
-        watches.emplace_back(stage.model.strings[s], state.strings[s], "string " + std::to_string(s));
+        watches.emplace_back(stage.model.strings[s], state.strings[s], "string " + std::to_string(s),
+                             stage.hostile.denormals);
     ScenePlaying playing(stage.hostile, stage.model, report.seed);
     while (stage.goes_on(report)) {
         const PlayedBlock block = playing.next();
@@ -146,6 +149,8 @@ Report run_scene(std::uint64_t seed, const Budget& budget) {
     } else if (compiled) {
         const SceneModel& model = compiled.value();
         const Stage stage{hostile, model, budget, start_cpu_s};
+        std::optional<host::NoDenormals> guard;
+        if (!hostile.denormals) guard.emplace();
         SceneState state = make_state(model, hostile.metering, hostile.skipping);
         SceneState again = make_state(model, hostile.metering, hostile.skipping);
         Sound sound(model.probe_count), recut(model.probe_count);

@@ -45,7 +45,7 @@ bool has_both_sides(const StringModel& model) {
 
 }  // namespace
 
-StringWatch::StringWatch(const StringModel& model, const StringState& start, std::string name)
+StringWatch::StringWatch(const StringModel& model, const StringState& start, std::string name, bool denormals)
     : model_(model), name_(std::move(name)) {
     for (std::size_t c = 0; c < model.contact_count; ++c) {
         const auto row = contact_row(model, c);
@@ -59,7 +59,7 @@ StringWatch::StringWatch(const StringModel& model, const StringState& start, std
     for (std::size_t p = 0; p < model.probes.size(); ++p)
         probes_.push_back(reach_of(model, {model.probe_rows.data() + p * model.stride, model.stride}));
     step_rounding_ = step_rounding(model);
-    may_be_unsolvable_ = model.contact_count > limits::active_contacts;
+    may_be_unsolvable_ = denormals || model.contact_count > limits::active_contacts;
     highest_ = energy(model, start);
 }
 

@@ -20,7 +20,8 @@ struct Strikes {
 
 class StringWatch {
   public:
-    StringWatch(const StringModel& model, const StringState& start, std::string name);
+    /// `denormals`: below 2e-308 no relative tolerance of a solve can be met, and it counts as truncated.
+    StringWatch(const StringModel& model, const StringState& start, std::string name, bool denormals);
 
     /// After the player has acted, before the block is rendered.
     void begin_block(const StringState& state);
