@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "compare_laws.h"
 #include "report.h"
 #include "run_seed.h"
 
@@ -11,7 +12,7 @@ namespace jawari::stress {
 namespace {
 
 struct Options {
-    std::uint64_t seed = 0, first = 0, count = 0;
+    std::uint64_t seed = 0, first = 0, count = 0, compare = 0;
     Budget budget;
     bool verbose = false;
 };
@@ -27,6 +28,19 @@ std::size_t play(const PresetShelf& shelf, std::uint64_t seed, const Options& op
     return report.judge.violations().size();
 }
 
+void print_comparison(std::uint64_t seeds) {
+    std::printf(
+        "| modes | law | scenes | impulses | energy rose | by more than 1e100 | largest H/H(0) | deepest, in "
+        "heights |\n|---|---|---|---|---|---|---|---|\n");
+    for (const bool of_tables : {false, true}) {
+        for (const LawRecord& r : compare_laws(seeds, of_tables))
+            std::printf("| %s | `%s` | %zu | %llu | %zu | %zu | 1 + %.2g | %.2g |\n",
+                        of_tables ? "table" : "physics", name_of(r.law), r.scenes,
+                        static_cast<unsigned long long>(r.impulses), r.rose, r.exploded, r.largest_gain - 1,
+                        r.deepest);
+    }
+}
+
 }  // namespace
 }  // namespace jawari::stress
 
@@ -40,8 +54,14 @@ int main(int argc, char** argv) {
     app.add_option("--blocks", options.budget.blocks, "blocks of each scene, instead of --cpu");
     app.add_option("--cpu", options.budget.cpu_s, "seconds of CPU time a scene")
         ->check(CLI::Range(1e-4, 1e4));
+    app.add_option("--compare-laws", options.compare,
+                   "instead: the laws on the same strings, of so many seeds (table)");
     app.add_flag("--verbose", options.verbose, "describe each scene");
     CLI11_PARSE(app, argc, argv);
+    if (options.compare > 0) {
+        print_comparison(options.compare);
+        return 0;
+    }
     const PresetShelf shelf = factory_presets();
     if (shelf.presets.empty()) {
         std::fprintf(stderr, "jawari_stress: the built-in presets cannot be read\n");
