@@ -12,6 +12,7 @@ import json
 import os
 import pathlib
 import queue
+import signal
 import subprocess
 import sys
 import threading
@@ -171,6 +172,9 @@ def main():
     options.log.parent.mkdir(parents=True, exist_ok=True)
     log = Log(options.log)
     at_start = len(log.done)
+    # Also where a shell has started this in the background, with interrupts ignored.
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.default_int_handler)
     run = Run(options, log)
     try:
         show_progress(run, log, options.scenes, time.monotonic(), at_start)
