@@ -2,21 +2,31 @@
 
 #include "describe.h"
 #include "instrument_run.h"
+#include "live_run.h"
 #include "scene_run.h"
 
 namespace jawari::stress {
 
-bool plays_instrument(std::uint64_t seed) {
-    return seed % 3 == 2;
+SeedKind kind_of(std::uint64_t seed) {
+    if (seed % 3 != 2) return SeedKind::Scene;
+    return seed % 12 == 11 ? SeedKind::Live : SeedKind::Instrument;
 }
 
 Report run_seed(const PresetShelf& shelf, std::uint64_t seed, const Budget& budget) {
-    return plays_instrument(seed) ? run_instrument(shelf, seed, budget) : run_scene(seed, budget);
+    switch (kind_of(seed)) {
+        case SeedKind::Instrument:
+            return run_instrument(shelf, seed, budget);
+        case SeedKind::Live:
+            return run_live(shelf, seed, budget);
+        default:
+            return run_scene(seed, budget);
+    }
 }
 
 std::string describe_seed(const PresetShelf& shelf, std::uint64_t seed) {
-    return plays_instrument(seed) ? describe(make_hostile_instrument(shelf, seed))
-                                  : describe(make_hostile_scene(seed));
+    if (kind_of(seed) == SeedKind::Scene) return describe(make_hostile_scene(seed));
+    const std::string live = kind_of(seed) == SeedKind::Live ? "live, first " : "";
+    return live + describe(make_hostile_instrument(shelf, seed));
 }
 
 }  // namespace jawari::stress

@@ -1,4 +1,4 @@
-// What a seed stands for: a scene or a performance.
+// What a seed stands for: a scene, a performance, or a live performance.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,10 @@
 
 namespace jawari::stress {
 
-/// Every third seed plays an instrument.
-bool plays_instrument(std::uint64_t seed);
+enum class SeedKind { Scene, Instrument, Live };
+
+/// Of twelve seeds eight are scenes, three performances and one is played live.
+SeedKind kind_of(std::uint64_t seed);
 
 Report run_seed(const PresetShelf& shelf, std::uint64_t seed, const Budget& budget);
 
