@@ -59,8 +59,7 @@ struct Stage {
 void play_checked(const Stage& stage, Report& report, SceneState& state, Sound& sound) {
     std::vector<StringWatch> watches;
     for (std::size_t s = 0; s < stage.model.strings.size(); ++s)
-        watches.emplace_back(stage.model.strings[s], state.strings[s], "string " + std::to_string(s),
-                             stage.hostile.denormals);
+        watches.emplace_back(stage.model.strings[s], state.strings[s], "string " + std::to_string(s));
     ScenePlaying playing(stage.hostile, stage.model, report.seed);
     while (stage.goes_on(report)) {
         const PlayedBlock block = playing.next();

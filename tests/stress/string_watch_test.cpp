@@ -44,7 +44,7 @@ std::vector<Violation> violations_after(const std::function<void(Scene&)>& tampe
                                         Metering metering = Metering::Off) {
     const SceneModel model = plucked_over_frets();
     SceneState state = make_state(model, metering);
-    StringWatch watch(model.strings[0], state.strings[0], "string", false);
+    StringWatch watch(model.strings[0], state.strings[0], "string");
     Scene scene;
     Judge judge;
     for (int block = 0; block < 10; ++block) {
