@@ -71,7 +71,8 @@ InstrumentWatch::InstrumentWatch(const InstrumentModel& model, const InstrumentD
                                  bool frame_by_frame)
     : model_(model),
       frame_by_frame_(frame_by_frame),
-      passive_(description.law != ImpactLaw::Newton || !description.contacts) {
+      passive_(description.law != ImpactLaw::Newton || !description.contacts),
+      never_penetrates_(description.law == ImpactLaw::Signorini) {
     contacts_.push_back(contact_reaches(model.strings));
     for (const auto& lower : model.lower) contacts_.push_back(contact_reaches(lower));
     for (std::size_t i = 0; i < model.body.count; ++i) {
@@ -137,6 +138,26 @@ void InstrumentWatch::check_energy(const InstrumentState& state, double frames, 
     judge.at_most(Invariant::EnergyRise, now.beyond_rest - before_.beyond_rest - work, allowed, "instrument");
 }
 
+/// Bends, hand-overs and rungs convert the backward velocity of a string that may be in contact: it then
+/// comes from inside an obstacle, and may stay there (docs/stability.md, "What the player changes").
+void InstrumentWatch::check_gaps(const InstrumentState& state, Judge& judge) {
+    const PlayerWork& work = state.work;
+    const Counters counters = contact_counters(state);
+    const bool converted = work.bends_J != 0 || work.transfers_J != 0 || work.rungs_J != 0;
+    if (!never_penetrates_ || converted || counters.truncated_solves > 0) return;
+    for (std::size_t s = 0; s < state.strings.size(); ++s) {
+        for (const Voice& voice : state.strings[s].voices) {
+            if (voice.phase == VoicePhase::Idle) continue;
+            const StringModel& model = string_of(model_, state, s).stopped[voice.fret].string;
+            const ContactReach& reach = contacts_[state.strings[s].rung][s][voice.fret];
+            const double size = bound_of(reach.extent, energy(model, voice.string)) + reach.height_m;
+            gap_rounding_m_ = std::max(gap_rounding_m_, gap_rounding_share(model) * size);
+        }
+    }
+    // The energy is known between pieces only; within one it may have been larger.
+    check_depth(judge, counters.worst_penetration_m, 10 * gap_rounding_m_, "instrument");
+}
+
 void InstrumentWatch::add_bounds(const InstrumentState& state, std::size_t s, std::size_t v,
                                  Bounds& bounds) const {
     const Voice& voice = state.strings[s].voices[v];
@@ -184,6 +205,7 @@ void InstrumentWatch::end_piece(const InstrumentState& state, const Piece& piece
     check_resets(judge, contact_counters(state).nonfinite_resets, "strings");
     check_resets(judge, state.body.nonfinite_resets, "body");
     check_energy(state, static_cast<double>(piece.left.size()), judge);
+    check_gaps(state, judge);
     check_sound(state, piece, judge);
 }
 

@@ -47,6 +47,7 @@ class InstrumentWatch {
     [[nodiscard]] Energies energies_of(const InstrumentState& state) const;
     void add_bounds(const InstrumentState& state, std::size_t s, std::size_t v, Bounds& bounds) const;
     void check_energy(const InstrumentState& state, double frames, Judge& judge);
+    void check_gaps(const InstrumentState& state, Judge& judge);
     void check_sound(const InstrumentState& state, const Piece& piece, Judge& judge);
     void remember_motions(const InstrumentState& state);
 
@@ -54,6 +55,8 @@ class InstrumentWatch {
     bool frame_by_frame_ = false;
     bool passive_ = true;  ///< what obstacles do cannot raise the energy: all laws but newton
     std::vector<std::vector<std::vector<ContactReach>>> contacts_;  ///< [rung][string][fret]
+    bool never_penetrates_ = false;                                 ///< signorini
+    double gap_rounding_m_ = 0;                                     ///< largest so far
     double body_left_ = 0, body_right_ = 0;  ///< most that the body answers to a force of at most 1 N
     double largest_bridge_N_ = 0;
     Energies before_;
