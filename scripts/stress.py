@@ -95,7 +95,9 @@ class Run:
 
     def _play(self, first, count):
         command = [self.options.program, "--first", str(first), "--count", str(count), "--cpu", str(self.options.cpu)]
-        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as process:
+        # A session of its own: what interrupts this script must not look like a crash.
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                              start_new_session=True) as process:
             played = 0
             for line in process.stdout:
                 self.report(self.log.append(line))
