@@ -1,0 +1,111 @@
+#include "hostile_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dice.h"
+#include "hostile_string.h"
+
+namespace jawari::stress {
+namespace {
+
+constexpr double highest_rate_hz = 64e6;
+/// Multiply-adds of the dearest frame, and of the Delassus operator.
+constexpr double work_of_frame = 1.5e7;
+constexpr double work_of_compile = 3e7;
+constexpr double work_of_neck = 3e6;
+
+double choose_output_rate(Dice& dice) {
+    if (dice.chance(0.5)) return dice.pick({8000, 22050, 44100, 48000, 96000, 192000, 384000, 768000});
+    return std::round(dice.spread(8000, 768000));
+}
+
+SizeLimits choose_sizes(const StringPlan& plan, Dice& dice) {
+    SizeLimits sizes;
+    if (plan.neck) {
+        sizes.contacts = dice.spread_whole(1, 4096);
+    } else if (!dice.chance(0.1)) {
+        sizes.contacts = dice.chance(0.02) ? dice.spread_whole(300, 4096) : dice.spread_whole(1, 100);
+    }
+    const double contacts = std::max(1.0, static_cast<double>(sizes.contacts));
+    const double cap = plan.neck ? work_of_neck / contacts : work_of_compile / (contacts * contacts);
+    sizes.modes = dice.spread_whole(1, static_cast<std::size_t>(std::clamp(cap, 1.0, 2000.0)));
+    return sizes;
+}
+
+/// Steps per frame: up to 64 MHz, as far as the work allows.
+double choose_contact_rate(double output_rate_hz, const SizeLimits& sizes, Dice& dice) {
+    const double work_of_step =
+        static_cast<double>(sizes.modes + 8) * static_cast<double>(sizes.contacts + 6);
+    const double most = std::min(highest_rate_hz / output_rate_hz, work_of_frame / work_of_step);
+    const std::size_t largest = std::max<std::size_t>(1, static_cast<std::size_t>(most));
+    const std::size_t steps = dice.chance(0.1) ? largest : dice.spread_whole(1, largest);
+    return output_rate_hz * static_cast<double>(steps);
+}
+
+void choose_scheme(Dice& dice, SceneDescription& scene) {
+    static constexpr ImpactLaw laws[] = {ImpactLaw::Newton, ImpactLaw::Passive, ImpactLaw::Signorini,
+                                         ImpactLaw::Signorini, ImpactLaw::PaoliSchatzman};
+    scene.law = laws[dice.whole(0, 4)];
+    if (!dice.chance(0.06)) return;
+    scene.scheme = Scheme::Theta;
+    scene.law = ImpactLaw::Newton;
+    scene.theta = dice.chance(0.5) ? dice.pick({0.5, 1}) : dice.uniform(0.5, 1);
+}
+
+/// `newton` may inject energy: only the balance of each step tells by how much.
+void choose_playing(Dice& dice, HostileScene& hostile) {
+    hostile.forces = dice.chance(0.4);
+    hostile.moves = dice.chance(0.25);
+    const bool of_steps = hostile.moves || hostile.description.law == ImpactLaw::Newton || dice.chance(0.25);
+    hostile.metering = of_steps ? Metering::Step : dice.chance(0.5) ? Metering::Frame : Metering::Off;
+    if (dice.chance(0.8)) return;
+    hostile.skipping = {dice.chance(0.5), dice.chance(0.5), dice.chance(0.5), dice.chance(0.5),
+                        dice.chance(0.5)};
+}
+
+StringPlan choose_plan(Dice& dice) {
+    StringPlan plan;
+    plan.extreme = dice.chance(0.1);
+    plan.tabled = dice.chance(0.2);
+    plan.neck = dice.chance(0.15);
+    plan.lifted = !plan.neck && dice.chance(0.2);
+    plan.sizes = choose_sizes(plan, dice);
+    if (plan.lifted) plan.sizes.contacts = std::min<std::size_t>(plan.sizes.contacts, 200);
+    return plan;
+}
+
+std::string kind_of(const StringPlan& plan, const HostileScene& hostile) {
+    std::string kind =
+        hostile.description.scheme == Scheme::Theta ? "theta" : name_of(hostile.description.law);
+    if (plan.extreme) return kind + " extreme";
+    if (plan.neck) return kind + " neck";
+    return kind + (plan.tabled ? " tabled" : plan.lifted ? " lifted" : " string");
+}
+
+}  // namespace
+
+HostileScene make_hostile_scene(std::uint64_t seed) {
+    Dice dice(seed);
+    HostileScene hostile;
+    SceneDescription& scene = hostile.description;
+    StringPlan plan = choose_plan(dice);
+    scene.output_rate_hz = choose_output_rate(dice);
+    scene.contact_rate_hz = choose_contact_rate(scene.output_rate_hz, plan.sizes, dice);
+    plan.contact_rate_hz = scene.contact_rate_hz;
+    choose_scheme(dice, scene);
+    choose_playing(dice, hostile);
+    const std::size_t strings = dice.chance(0.1) ? dice.whole(2, 4) : 1;
+    for (std::size_t s = 0; s < strings; ++s) {
+        PlannedString planned = make_string(plan, dice);
+        hostile.height_m = planned.height_m;
+        scene.strings.push_back(std::move(planned.string));
+        plan.sizes.contacts = std::min<std::size_t>(plan.sizes.contacts, 20);
+        plan.sizes.modes = std::min<std::size_t>(plan.sizes.modes, 50);
+    }
+    hostile.kind = kind_of(plan, hostile);
+    hostile.denormals = dice.chance(0.25);
+    return hostile;
+}
+
+}  // namespace jawari::stress

@@ -1,0 +1,229 @@
+#include "string_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "invariants.h"
+#include "jawari/energy.h"
+
+namespace jawari::stress {
+namespace {
+
+constexpr double still_J = 1e-200;
+
+std::span<const double> contact_row(const StringModel& model, std::size_t c) {
+    return {model.contact_rows.data() + c * model.stride, model.stride};
+}
+
+double dot(const StringModel& model, const double* row, const AlignedVector<double>& x) {
+    double sum = 0;
+    for (std::size_t k = 0; k < model.mode_count; ++k) sum += row[k] * x[k];
+    return sum;
+}
+
+double lag_of(const StringModel& model) {
+    return model.scheme == Scheme::Exact ? model.step_s / 2 : 0.0;
+}
+
+/// Contacts that move the string in different ways: fewer than modes, and half the shortest wave apart.
+bool has_independent_contacts(const StringModel& model) {
+    std::vector<double> places = model.contact_position;
+    std::sort(places.begin(), places.end());
+    const double apart = model.length_m / static_cast<double>(model.mode_count + 1);
+    if (places.empty()) return true;
+    if (places.front() < apart || places.back() > model.length_m - apart) return false;
+    for (std::size_t i = 1; i < places.size(); ++i) {
+        if (places[i] - places[i - 1] < apart) return false;
+    }
+    return true;
+}
+
+bool has_both_sides(const StringModel& model) {
+    const auto above = [](Side side) { return side == Side::Above; };
+    const auto n = std::count_if(model.contact_side.begin(), model.contact_side.end(), above);
+    return n > 0 && static_cast<std::size_t>(n) < model.contact_count;
+}
+
+}  // namespace
+
+StringWatch::StringWatch(const StringModel& model, const StringState& start, std::string name)
+    : model_(model), name_(std::move(name)) {
+    for (std::size_t c = 0; c < model.contact_count; ++c) {
+        const auto row = contact_row(model, c);
+        contacts_.push_back(reach_of(model, row));
+        kicks_.push_back(kick_of(model, row));
+        longest_extent_ = std::max(longest_extent_, contacts_.back().extent);
+        const double gap = dot(model, row.data(), start.displacement) - model.contact_height[c];
+        const double gap_before = gap - model.step_s * dot(model, row.data(), start.velocity);
+        start_depth_ = std::max({start_depth_, -gap, -gap_before});
+    }
+    for (std::size_t p = 0; p < model.probes.size(); ++p)
+        probes_.push_back(reach_of(model, {model.probe_rows.data() + p * model.stride, model.stride}));
+    step_rounding_ = step_rounding(model);
+    may_be_unsolvable_ = model.contact_count > limits::active_contacts;
+    highest_ = energy(model, start);
+}
+
+/// F w of the forces that are held: their work over a span is its change, docs/model.md, "Forces held over a
+/// frame".
+double StringWatch::lag_work(const StringState& state) const {
+    if (!state.excitation.active) return 0;
+    const double* force = state.excitation.held.data();
+    return dot(model_, force, state.displacement) - lag_of(model_) * dot(model_, force, state.velocity);
+}
+
+void StringWatch::begin_block(const StringState& state) {
+    before_ = energy(model_, state) - lag_work(state);
+    force_arm_ = 0;
+    impulses_before_ = state.counters.impulses;
+    block_impulses_ = 0;
+    of_block_ = {};
+    frame_before_ = state.frame;
+    solves_before_ = state.counters.solves;
+    truncated_before_ = state.counters.truncated_solves;
+    for (std::size_t c = 0; c < model_.contact_count; ++c) {
+        if (state.contact.moving_steps[c] == 0) continue;
+        rise_ = std::max(rise_, std::abs(state.contact.height_rate[c]));
+        may_be_unsolvable_ = may_be_unsolvable_ || has_both_sides(model_);
+    }
+    if (!state.excitation.active) return;
+    force_arm_ = reach_of(model_, state.excitation.held).middle;
+    for (std::size_t c = 0; c < model_.contact_count; ++c) {
+        double kick = 0;
+        for (std::size_t k = 0; k < model_.mode_count; ++k)
+            kick += std::abs(contact_row(model_, c)[k] * model_.mobility[k] * state.excitation.held[k]);
+        kick_ = std::max(kick_, model_.step_s * model_.step_s * kick);
+    }
+}
+
+void StringWatch::note_frame(const StringState& state) {
+    if (state.counters.impulses == impulses_before_) return;
+    block_impulses_ += state.counters.impulses - impulses_before_;
+    impulses_before_ = state.counters.impulses;
+    Strikes frame;
+    for (std::size_t c = 0; c < model_.contact_count; ++c) {
+        frame.impulses_Ns += state.contact.frame_impulse[c];
+        frame.kicks += kicks_[c] * state.contact.frame_impulse[c];
+    }
+    strongest_.impulses_Ns = std::max(strongest_.impulses_Ns, frame.impulses_Ns);
+    strongest_.kicks = std::max(strongest_.kicks, frame.kicks);
+    of_block_.impulses_Ns += frame.impulses_Ns;
+    of_block_.kicks += frame.kicks;
+}
+
+void StringWatch::raise_bounds(const StringState& state) {
+    for (std::size_t c = 0; c < model_.contact_count; ++c)
+        highest_obstacle_ = std::max(highest_obstacle_, std::abs(state.contact.height[c]));
+    if (state.metering == Metering::Step) {
+        highest_ = std::max(highest_, state.energy.highest);
+    } else {
+        // H - F w does not rise, and |F w| <= arm sqrt(H): a quadratic inequality for sqrt(H).
+        const double half = force_arm_ / 2;
+        const double root = half + std::sqrt(half * half + std::max(0.0, before_));
+        highest_ = std::max(highest_, root * root);
+    }
+}
+
+void StringWatch::end_block(const StringState& state, std::span<const std::span<const double>> outputs,
+                            Judge& judge) {
+    raise_bounds(state);
+    check_finite(judge, state.displacement, name_ + " displacement");
+    check_finite(judge, state.velocity, name_ + " velocity");
+    check_resets(judge, state.counters.nonfinite_resets, name_);
+    check_energy(state, judge);
+    count_solves(state);
+    check_counters(state, judge);
+    check_gaps(state, judge);
+    check_outputs(outputs, judge);
+}
+
+void StringWatch::check_energy(const StringState& state, Judge& judge) const {
+    const double of_step = step_rounding_ * highest_;
+    const double gap_size = bound_of(longest_extent_, highest_) + highest_obstacle_;
+    if (state.metering == Metering::Step) {
+        const double allowed = of_step + kick_rounding(model_, strongest_.kicks, highest_) +
+                               work_rounding(model_, strongest_.impulses_Ns, rise_);
+        check_balance(judge, state.energy, allowed, name_);
+        const bool passive = model_.scheme == Scheme::Exact && model_.law != ImpactLaw::Newton;
+        const double of_gaps = work_rounding(model_, strongest_.impulses_Ns, gap_size) +
+                               residual_work(model_, strongest_.impulses_Ns, state.counters.worst_residual_m);
+        if (passive) check_rise_of_step(judge, state.energy, allowed + of_gaps, name_);
+        return;
+    }
+    const double rise = energy(model_, state) - lag_work(state) - before_;
+    const double steps = static_cast<double>(state.frame - frame_before_ + 1 + block_impulses_);
+    check_rise_of_block(judge, rise,
+                        steps * of_step + kick_rounding(model_, of_block_.kicks, highest_) +
+                            work_rounding(model_, of_block_.impulses_Ns, gap_size) +
+                            residual_work(model_, of_block_.impulses_Ns, state.counters.worst_residual_m),
+                        name_);
+}
+
+double StringWatch::gap_rounding(std::size_t contact) const {
+    const double size = bound_of(contacts_[contact].extent, highest_) + highest_obstacle_;
+    return gap_rounding_share(model_) * size;
+}
+
+double StringWatch::depth_bound(std::size_t contact) const {
+    const double travel = model_.step_s * bound_of(contacts_[contact].speed, highest_) + rise_;
+    return std::max(start_depth_, depth_of_law(model_.law, model_.contact_restitution[contact], travel)) +
+           1e-9 * travel + gap_rounding(contact);
+}
+
+void StringWatch::check_gaps(const StringState& state, Judge& judge) const {
+    const bool proven = model_.scheme == Scheme::Exact && state.counters.truncated_solves == 0;
+    if (!proven || model_.contact_count == 0) return;
+    double deepest_allowed = 0;
+    for (std::size_t c = 0; c < model_.contact_count; ++c) {
+        const double allowed = depth_bound(c);
+        deepest_allowed = std::max(deepest_allowed, allowed);
+        const double gap =
+            dot(model_, contact_row(model_, c).data(), state.displacement) - state.contact.height[c];
+        if (!state.asleep) check_depth(judge, -gap, allowed, name_ + " contact " + std::to_string(c));
+    }
+    check_depth(judge, state.counters.worst_penetration_m, deepest_allowed, name_ + " within the block");
+}
+
+/// A string that lies still below 1e-200 J has gaps whose relative tolerances underflow: its solves tell
+/// nothing.
+void StringWatch::count_solves(const StringState& state) {
+    if (energy(model_, state) < still_J) return;
+    counted_.solves += state.counters.solves - solves_before_;
+    counted_.truncated_solves += state.counters.truncated_solves - truncated_before_;
+}
+
+void StringWatch::check_counters(const StringState& state, Judge& judge) const {
+    if (!may_be_unsolvable_) check_truncation(judge, counted_, has_independent_contacts(model_), name_);
+    double travel = 0;
+    double rounding = 0;
+    for (std::size_t c = 0; c < model_.contact_count; ++c) {
+        travel = std::max(travel, contacts_[c].speed);
+        rounding = std::max(rounding, gap_rounding(c));
+    }
+    travel = model_.step_s * bound_of(travel, highest_);
+    check_residual(judge, state.counters.worst_residual_m, 2 * travel + rise_ + kick_, rounding, name_);
+}
+
+void StringWatch::check_outputs(std::span<const std::span<const double>> outputs, Judge& judge) const {
+    for (std::size_t p = 0; p < outputs.size(); ++p) {
+        const std::string where = name_ + " probe " + std::to_string(p);
+        check_finite(judge, outputs[p], where);
+        switch (model_.probes[p].quantity) {
+            case Quantity::Displacement:
+                check_output(judge, outputs[p], bound_of(probes_[p].extent, highest_), where);
+                break;
+            case Quantity::Velocity:
+                check_output(judge, outputs[p], bound_of(probes_[p].speed, highest_), where);
+                break;
+            case Quantity::Energy:
+                check_output(judge, outputs[p], highest_, where);
+                break;
+            case Quantity::ContactForce:
+                check_not_negative(judge, outputs[p], where);
+                break;
+        }
+    }
+}
+
+}  // namespace jawari::stress

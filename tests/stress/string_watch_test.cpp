@@ -1,0 +1,121 @@
+// A watch over a string sees a state that has been tampered with; left alone, the same string passes.
+#include "string_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "jawari/compile.h"
+#include "jawari/render.h"
+
+namespace jawari::stress {
+namespace {
+
+constexpr std::size_t frames = 40;
+
+SceneModel plucked_over_frets() {
+    SceneDescription scene;
+    scene.output_rate_hz = 48000;
+    scene.contact_rate_hz = 480000;
+    StringDescription string;
+    string.length_m = 0.65;
+    string.linear_density_kg_per_m = 0.005;
+    PhysicalModes modes;
+    modes.count = 40;
+    modes.tension_N = 80;
+    modes.inharmonicity = 1e-5;
+    string.modes = modes;
+    string.initial.shape = Pluck{0.5, 3e-3};
+    for (int fret = 1; fret <= 5; ++fret) string.contacts.push_back({0.06 * fret, -5e-4, 0, Side::Below});
+    string.probes.push_back({Quantity::Displacement, 0.2, 0});
+    string.probes.push_back({Quantity::Velocity, 0.2, 0});
+    scene.strings.push_back(string);
+    return compile(scene).value();
+}
+
+struct Scene {
+    StringState state;
+    std::vector<double> displacement, velocity;
+};
+
+/// Violations of a block in which `tamper` was at work before the check.
+std::vector<Violation> violations_after(const std::function<void(Scene&)>& tamper,
+                                        Metering metering = Metering::Off) {
+    const SceneModel model = plucked_over_frets();
+    SceneState state = make_state(model, metering);
+    StringWatch watch(model.strings[0], state.strings[0], "string");
+    Scene scene;
+    Judge judge;
+    for (int block = 0; block < 10; ++block) {
+        watch.begin_block(state.strings[0]);
+        scene.displacement.resize(frames);
+        scene.velocity.resize(frames);
+        for (std::size_t n = 0; n < frames; ++n) {
+            render(model, state, std::array{scene.displacement.data() + n, scene.velocity.data() + n}, 1);
+            watch.note_frame(state.strings[0]);
+        }
+    }
+    EXPECT_GT(state.strings[0].counters.impulses, 0U);
+    scene.state = state.strings[0];
+    tamper(scene);
+    watch.end_block(scene.state, std::array<std::span<const double>, 2>{scene.displacement, scene.velocity},
+                    judge);
+    return judge.violations();
+}
+
+bool has(const std::vector<Violation>& violations, Invariant invariant) {
+    for (const Violation& v : violations) {
+        if (v.invariant == invariant) return true;
+    }
+    return false;
+}
+
+TEST(StringWatch, PassesWhatIsSound) {
+    EXPECT_TRUE(violations_after([](Scene&) {}).empty());
+    EXPECT_TRUE(violations_after([](Scene&) {}, Metering::Step).empty());
+}
+
+TEST(StringWatch, SeesEnergyFromNowhere) {
+    const auto found = violations_after([](Scene& scene) {
+        for (double& v : scene.state.velocity) v *= 1.001;
+    });
+    EXPECT_TRUE(has(found, Invariant::EnergyRise));
+}
+
+TEST(StringWatch, SeesABrokenMeter) {
+    const auto found =
+        violations_after([](Scene& scene) { scene.state.energy.worst_imbalance = 1e-9; }, Metering::Step);
+    EXPECT_TRUE(has(found, Invariant::EnergyBalance));
+}
+
+TEST(StringWatch, SeesPenetration) {
+    const auto found = violations_after([](Scene& scene) {
+        // Through the frets.
+        scene.state.displacement[0] -= 2e-3;
+    });
+    EXPECT_TRUE(has(found, Invariant::Penetration));
+    EXPECT_TRUE(has(violations_after([](Scene& scene) { scene.state.counters.worst_penetration_m = 1e-9; }),
+                    Invariant::Penetration));
+}
+
+TEST(StringWatch, SeesWhatIsNotFinite) {
+    const auto found = violations_after(
+        [](Scene& scene) { scene.state.velocity[3] = std::numeric_limits<double>::quiet_NaN(); });
+    EXPECT_TRUE(has(found, Invariant::Finite));
+}
+
+TEST(StringWatch, SeesOutputsBeyondTheirBound) {
+    EXPECT_TRUE(has(violations_after([](Scene& scene) { scene.displacement[7] = 0.1; }), Invariant::Output));
+    EXPECT_TRUE(has(violations_after([](Scene& scene) { scene.velocity[7] = -1e4; }), Invariant::Output));
+}
+
+TEST(StringWatch, SeesPoorAndTruncatedSolves) {
+    EXPECT_TRUE(has(violations_after([](Scene& scene) { scene.state.counters.worst_residual_m = 1e-3; }),
+                    Invariant::Residual));
+    EXPECT_TRUE(has(violations_after([](Scene& scene) { scene.state.counters.truncated_solves = 1; }),
+                    Invariant::Truncation));
+}
+
+}  // namespace
+}  // namespace jawari::stress
