@@ -81,7 +81,7 @@ if $full; then
     stage "other instruction sets" scripts/check_neon.sh
     # Oracles, soaks and pitches check numbers, which the release run has done; here only memory and threads are at stake.
     stage "build (asan-ubsan)" build asan-ubsan jawari engine_tests host_tests thread_tests rivals_tests play_tests \
-        jawari_fuzzers &&
+        stress_tests jawari_fuzzers &&
         tests asan-ubsan -LE 'peers|presets|examples|live' -E RenderPitch && stage "fuzzing" fuzz
     stage "build (tsan)" build tsan jawari thread_tests && tests tsan -L threads
 fi

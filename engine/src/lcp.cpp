@@ -17,6 +17,9 @@ constexpr std::size_t lasting = 8;
 // A solution whose residual is larger than this share of the worst violation is none.
 constexpr double largest_relative_residual = 1e-6;
 
+// Nothing is done about violations below this: their tolerance would underflow.
+constexpr double smallest_violation = 1e-280;
+
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Factor = Eigen::Map<Matrix, Eigen::Aligned, Eigen::OuterStride<>>;
 using Vector = Eigen::Map<Eigen::VectorXd>;
@@ -208,17 +211,37 @@ std::size_t most_violated(const Problem& p) {
     return worst;
 }
 
+/// Whether the active gaps are what they should be, up to a thousand times the tolerance.
+bool active_gaps_close(const Problem& p) {
+    const LcpWorkspace& work = p.work;
+    for (std::size_t i = 0; i < work.active_count; ++i) {
+        if (!(std::abs(p.residual[work.active[i]]) <= 1000 * p.tolerance)) return false;
+    }
+    return true;
+}
+
+bool adopt_solution(const Problem& p) {
+    LcpWorkspace& work = p.work;
+    for (std::size_t i = 0; i < work.active_count; ++i) {
+        if (!(work.solution[i] > 0)) return false;
+    }
+    for (std::size_t i = 0; i < work.active_count; ++i) p.lambda[work.active[i]] = work.solution[i];
+    update_residual(p);
+    return true;
+}
+
 /// Contacts that touch mostly go on to touch: true if the contacts of the first guess are the solution's.
 bool last_set_holds(const Problem& p) {
     LcpWorkspace& work = p.work;
     adopt_active_set(p);
     if (work.active_count == 0) return false;
     solve_kept_set(p);
-    for (std::size_t i = 0; i < work.active_count; ++i) {
-        if (!(work.solution[i] > 0)) return false;
+    if (!adopt_solution(p)) return false;
+    if (work.repeated >= lasting && !active_gaps_close(p)) {
+        // Contacts that nearly coincide: an explicit inverse loses what the factor keeps.
+        solve_active(p);
+        if (!adopt_solution(p)) return false;
     }
-    for (std::size_t i = 0; i < work.active_count; ++i) p.lambda[work.active[i]] = work.solution[i];
-    update_residual(p);
     return most_violated(p) == none;
 }
 
@@ -301,6 +324,11 @@ LcpOutcome solve_lcp(const ContactOperator& A, std::span<const double> r,
     double lowest = 0;
     for (const auto c : candidates) lowest = std::min(lowest, r[c]);
     p.tolerance = -1e-13 * lowest;
+    if (-lowest < smallest_violation) {
+        for (const auto c : candidates) lambda[c] = 0;
+        for (const auto c : candidates) residual[c] = r[c];
+        return {};
+    }
 
     if (workspace.factored != A.values) workspace.active_count = workspace.repeated = 0;
     workspace.factored = A.values;

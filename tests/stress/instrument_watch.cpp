@@ -60,8 +60,8 @@ double touch_rounding(const StringModel& model, const Voice& voice, double energ
     const auto add = [&](double force_N, const AlignedVector<double>& row) {
         if (force_N != 0) sum += std::abs(force_N) * bound_of(reach_of(model, row).extent, energy_J);
     };
-    for (const Touch& touch : voice.touches.touches) add(touch.force_N, touch.row);
-    add(voice.touches.exciter.force_N, voice.touches.exciter.row);
+    for (const Touch& touch : voice.touches.touches) add(touch.point.force_N, touch.row);
+    add(voice.touches.exciter.point.force_N, voice.touches.exciter.row);
     return eps * operations(model) * sum;
 }
 

@@ -1,0 +1,95 @@
+// The complementarity solver where rounding is felt: contacts that nearly coincide, solved again and again
+// with the same active set, and violations near the smallest numbers.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "jawari/lcp.h"
+
+namespace jawari {
+namespace {
+
+/// Gram matrix of smooth shapes at the places: the nearer two places, the more alike their rows.
+std::vector<double> delassus(const std::vector<double>& places) {
+    const std::size_t n = places.size();
+    std::vector<double> A(n * n);
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) {
+            long double sum = 0;
+            for (int k = 1; k <= 60; ++k) sum += std::sin(k * places[i]) * std::sin(k * places[j]);
+            A[i * n + j] = static_cast<double>(sum);
+        }
+    }
+    return A;
+}
+
+/// max_c |min(r + A lambda, A_cc lambda)| in long double.
+double residual_of(const std::vector<double>& A, const std::vector<double>& r,
+                   const std::vector<double>& lambda) {
+    const std::size_t n = r.size();
+    long double worst = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        long double gap = r[i];
+        for (std::size_t j = 0; j < n; ++j) gap += static_cast<long double>(A[i * n + j]) * lambda[j];
+        worst = std::max(worst, std::abs(std::min(gap, static_cast<long double>(A[i * n + i]) * lambda[i])));
+    }
+    return static_cast<double>(worst);
+}
+
+/// The inverse that a lasting active set gets loses more than its factor does.
+TEST(LcpRounding, SetsOfNearlyCoincidentContactsLast) {
+    for (const double distance : {1e-3, 1e-4, 1e-5, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8}) {
+        const std::vector<double> places{0.5, 0.5 + distance, 1.3, 1.3 + distance, 1.3 + 2 * distance, 2.2};
+        const std::vector<double> A = delassus(places);
+        const std::size_t n = places.size();
+        std::vector<std::uint32_t> candidates(n);
+        std::iota(candidates.begin(), candidates.end(), 0U);
+        LcpWorkspace workspace = make_lcp_workspace(n);
+        std::mt19937 random(7);
+        std::uniform_real_distribution<double> impulse(0.5, 1);
+        std::vector<double> lambda(n, 0.0), residual(n, 0.0);
+        for (int solve = 0; solve < 40; ++solve) {
+            std::vector<double> r(n, 0.0);  // solved by impulses on all contacts
+            for (std::size_t j = 0; j < n; ++j) {
+                const double x = impulse(random);
+                for (std::size_t i = 0; i < n; ++i) r[i] -= A[i * n + j] * x;
+            }
+            const double violation = -*std::min_element(r.begin(), r.end());
+            const LcpOutcome outcome = solve_lcp({A.data(), n}, r, candidates, lambda, residual, workspace);
+            EXPECT_TRUE(outcome.finished) << distance << " solve " << solve;
+            EXPECT_LE(residual_of(A, r, lambda), 1e-9 * violation) << distance << " solve " << solve;
+        }
+    }
+}
+
+/// Whatever the size of the numbers, a solve is the same problem, until its tolerance would underflow: then
+/// there is nothing to do.
+TEST(LcpRounding, ScalesDownToTheSmallestNumbers) {
+    const std::vector<double> A = delassus({0.5, 0.9, 1.6, 2.2});
+    const std::vector<std::uint32_t> candidates{0, 1, 2, 3};
+    const std::vector<double> large{-1, 0.2, -0.5, -0.1};
+    std::vector<double> expected(4, 0.0), residual(4, 0.0);
+    LcpWorkspace workspace = make_lcp_workspace(4);
+    ASSERT_TRUE(solve_lcp({A.data(), 4}, large, candidates, expected, residual, workspace).finished);
+    for (int exponent = 15; exponent <= 315; exponent += 15) {
+        const double scale = std::pow(10.0, -exponent);
+        std::vector<double> r(4);
+        for (std::size_t i = 0; i < 4; ++i) r[i] = scale * large[i];
+        std::vector<double> lambda(4, 0.0);
+        LcpWorkspace fresh = make_lcp_workspace(4);
+        const LcpOutcome outcome = solve_lcp({A.data(), 4}, r, candidates, lambda, residual, fresh);
+        EXPECT_TRUE(outcome.finished) << exponent;
+        EXPECT_LE(outcome.pivots, 8U) << exponent;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const double wanted = exponent < 280 ? expected[i] * scale : 0.0;
+            EXPECT_NEAR(lambda[i], wanted, 1e-12 * scale) << exponent << " " << i;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace jawari
