@@ -36,7 +36,6 @@ class StringWatch {
     void raise_bounds(const StringState& state);
     void check_energy(const StringState& state, Judge& judge) const;
     void check_gaps(const StringState& state, Judge& judge) const;
-    void count_solves(const StringState& state);
     void check_counters(const StringState& state, Judge& judge) const;
     void check_outputs(std::span<const std::span<const double>> outputs, Judge& judge) const;
     [[nodiscard]] double depth_bound(std::size_t contact) const;
@@ -51,7 +50,6 @@ class StringWatch {
     double longest_extent_ = 0;     ///< of the contacts
     Strikes strongest_, of_block_;  ///< largest of a frame so far; sum over the block
     bool may_be_unsolvable_ = false;
-    Counters counted_;        ///< solves of blocks in which the string moved
     double highest_ = 0;      ///< bound of H at all steps so far
     double start_depth_ = 0;  ///< largest -gap of the initial state and of the step before it
     double rise_ = 0;         ///< fastest movement of an obstacle [m per step]
@@ -62,7 +60,6 @@ class StringWatch {
     double force_arm_ = 0;               ///< |F w| <= this sqrt(H)
     std::uint64_t impulses_before_ = 0;  ///< and of the frame
     std::uint64_t block_impulses_ = 0, frame_before_ = 0;
-    std::uint64_t solves_before_ = 0, truncated_before_ = 0;
 };
 
 }  // namespace jawari::stress

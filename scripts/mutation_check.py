@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""Breaks the engine in one place after another and shows that a test fails for each.
+
+The places are tests/mutation/mutations.json: a text that occurs once in a file of the engine, and what is put in its stead.
+A copy of the tree is built in build/mutation with the engine's tests alone; nothing else is touched. Results so far are
+kept, so that a run that is interrupted goes on where it stopped; --again starts over.
+
+usage: mutation_check.py [--jobs N] [--only TEXT] [--again]
+"""
+import argparse
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+WORK = ROOT / "build/mutation"
+TREE = WORK / "tree"
+BUILD = WORK / "build"
+RESULTS = WORK / "results.json"
+
+
+def copy_tree():
+    """What is tracked, as it is in the working tree."""
+    shutil.rmtree(TREE, ignore_errors=True)
+    tracked = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    for name in filter(None, tracked.split("\0")):
+        (TREE / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(ROOT / name, TREE / name)
+
+
+def build(jobs):
+    run = subprocess.run(["cmake", "--build", BUILD, "--parallel", str(jobs), "--target", "engine_tests"],
+                         capture_output=True, text=True)
+    return run.returncode == 0, run.stdout[-2000:]
+
+
+def configure():
+    options = ["-DCMAKE_BUILD_TYPE=Release", "-DJAWARI_BUILD_HOST=OFF", "-DJAWARI_BUILD_BENCHMARKS=OFF", "-G", "Ninja"]
+    subprocess.run(["cmake", "-S", TREE, "-B", BUILD, *options], check=True, stdout=subprocess.DEVNULL)
+
+
+def first_failure(seconds):
+    """Name of a test that fails, or None if all pass."""
+    command = [BUILD / "bin/engine_tests", "--gtest_brief=1", "--gtest_fail_fast"]
+    try:
+        run = subprocess.run(command, capture_output=True, text=True, timeout=seconds)
+    except subprocess.TimeoutExpired:
+        return "(tests did not end)"
+    if run.returncode == 0:
+        return None
+    failed = [line for line in run.stdout.splitlines() if line.startswith("[  FAILED  ]")]
+    return failed[0].split("]", 1)[1].split(",")[0].split("(")[0].strip() if failed else f"(exit {run.returncode})"
+
+
+def key_of(mutation):
+    return f"{mutation['file']}: {mutation['find']} -> {mutation['replace']}"
+
+
+def try_mutation(mutation, jobs, seconds):
+    path = TREE / mutation["file"]
+    whole = path.read_text(encoding="utf-8")
+    count = whole.count(mutation["find"])
+    if count != 1:
+        return {"outcome": "stale", "detail": f"the text occurs {count} times"}
+    path.write_text(whole.replace(mutation["find"], mutation["replace"]), encoding="utf-8")
+    try:
+        built, output = build(jobs)
+        if not built:
+            return {"outcome": "does not compile", "detail": output.splitlines()[-1] if output else ""}
+        failure = first_failure(seconds)
+        return {"outcome": "found", "detail": failure} if failure else {"outcome": "SURVIVED", "detail": ""}
+    finally:
+        path.write_text(whole, encoding="utf-8")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--only", default="", help="mutations whose file or text contains this")
+    parser.add_argument("--again", action="store_true", help="forget earlier results")
+    options = parser.parse_args()
+    mutations = json.loads((ROOT / "tests/mutation/mutations.json").read_text(encoding="utf-8"))
+    chosen = [m for m in mutations if options.only in key_of(m)]
+    WORK.mkdir(parents=True, exist_ok=True)
+    copy_tree()
+    configure()
+    built, output = build(options.jobs)
+    if not built:
+        sys.exit(f"mutation_check.py: the engine's tests do not build\n{output}")
+    start = time.monotonic()
+    if failure := first_failure(3600):
+        sys.exit(f"mutation_check.py: {failure} fails without any mutation")
+    seconds = 10 * (time.monotonic() - start) + 60
+    results = {} if options.again or not RESULTS.exists() else json.loads(RESULTS.read_text(encoding="utf-8"))
+    bad = 0
+    for number, mutation in enumerate(chosen, 1):
+        key = key_of(mutation)
+        if key not in results:
+            if sys.stderr.isatty():
+                print(f"\r{number} of {len(chosen)} ", end="", file=sys.stderr)
+            results[key] = try_mutation(mutation, options.jobs, seconds)
+            RESULTS.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
+        outcome = results[key]
+        bad += outcome["outcome"] != "found"
+        print(f"{outcome['outcome']:8}  {mutation['file']}: {mutation['find'].strip().splitlines()[0][:70]}  {outcome['detail']}")
+    print(f"{len(chosen) - bad} of {len(chosen)} mutations were found")
+    sys.exit(bad > 0)
+
+
+if __name__ == "__main__":
+    main()
