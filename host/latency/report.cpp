@@ -1,8 +1,6 @@
 #include "latency/report.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -13,13 +11,6 @@ namespace jawari::host {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <class... Values>
-std::string line(const char* format, Values... values) {
-    std::array<char, 300> text{};
-    std::snprintf(text.data(), text.size(), format, values...);
-    return text.data();
-}
 
 Json delay_json(const std::optional<std::size_t>& frames) {
     return frames ? Json(*frames) : Json(nullptr);
@@ -43,9 +34,9 @@ Json histogram_json(const ShareHistogram& histogram) {
 }
 
 std::string table_row(std::size_t frames, const char* kind, const Distribution& distribution) {
-    return line("  %6zu  %-8s %9zu  %7.2f %%  %7.2f %%  %7.2f %%  %7.2f %%\n", frames, kind,
-                distribution.count, 100 * distribution.median, 100 * distribution.p99,
-                100 * distribution.p99_99, 100 * distribution.most);
+    return formatted("  %6zu  %-8s %9zu  %7.2f %%  %7.2f %%  %7.2f %%  %7.2f %%\n", frames, kind,
+                     distribution.count, 100 * distribution.median, 100 * distribution.p99,
+                     100 * distribution.p99_99, 100 * distribution.most);
 }
 
 std::string csv_row(const PresetResult& preset, const BlockSizeResult& size, const char* kind,
@@ -83,9 +74,9 @@ std::string processor_name() {
 std::string latency_text(const LatencyReport& report) {
     std::string text = "Event to first changed sample, frames beyond the event's own offset:\n";
     for (const PresetResult& preset : report.presets)
-        text += line("  %-18s at rest %s, while sounding %s (%zu events)\n", printable(preset.preset).c_str(),
-                     delay_text(preset.delay.at_rest).c_str(), delay_text(preset.delay.sounding).c_str(),
-                     preset.delay.events);
+        text += formatted("  %-18s at rest %s, while sounding %s (%zu events)\n",
+                          printable(preset.preset).c_str(), delay_text(preset.delay.at_rest).c_str(),
+                          delay_text(preset.delay.sounding).c_str(), preset.delay.events);
     text += "\nCPU time of a block over its duration, adversarial playing, " +
             std::to_string(report.rate_hz) + " Hz, quality " + report.quality + ", " + report.processor +
             ":\n";
@@ -97,8 +88,8 @@ std::string latency_text(const LatencyReport& report) {
         for (const BlockSizeResult& size : preset.sizes) {
             text += table_row(size.frames, "raw", size.raw);
             text += table_row(size.frames, "minimum", size.minimum);
-            text +=
-                line("          late by the wall clock: %llu\n", static_cast<unsigned long long>(size.late));
+            text += formatted("          late by the wall clock: %llu\n",
+                              static_cast<unsigned long long>(size.late));
         }
     }
     return text;

@@ -1,7 +1,8 @@
 #include "play/monitor_text.h"
 
 #include <array>
-#include <cstdio>
+
+#include "common/text.h"
 
 namespace jawari::host {
 
@@ -52,13 +53,6 @@ const char* controller_name(int number) {
     return "";
 }
 
-template <class... Values>
-std::string text(const char* format, Values... values) {
-    std::array<char, 120> line{};
-    std::snprintf(line.data(), line.size(), format, values...);
-    return line.data();
-}
-
 }  // namespace
 
 std::string key_name(int key) {
@@ -75,21 +69,22 @@ std::string message_text(const ChannelMessage& message) {
     switch (kind_of(message)) {
         case MessageKind::NoteOn:
             if (second == 0) break;
-            return text("ch %-2d note on     %-4s (%d)  velocity %d", channel, key.c_str(), first, second);
+            return formatted("ch %-2d note on     %-4s (%d)  velocity %d", channel, key.c_str(), first,
+                             second);
         case MessageKind::PolyPressure:
-            return text("ch %-2d pressure    %-4s (%d)  %d", channel, key.c_str(), first, second);
+            return formatted("ch %-2d pressure    %-4s (%d)  %d", channel, key.c_str(), first, second);
         case MessageKind::ControlChange:
-            return text("ch %-2d controller  %d %s: %d", channel, first, controller_name(first), second);
+            return formatted("ch %-2d controller  %d %s: %d", channel, first, controller_name(first), second);
         case MessageKind::ProgramChange:
-            return text("ch %-2d program     %d", channel, first);
+            return formatted("ch %-2d program     %d", channel, first);
         case MessageKind::ChannelPressure:
-            return text("ch %-2d pressure    %d", channel, first);
+            return formatted("ch %-2d pressure    %d", channel, first);
         case MessageKind::PitchBend:
-            return text("ch %-2d bend        %+d", channel, second * 128 + first - 8192);
+            return formatted("ch %-2d bend        %+d", channel, second * 128 + first - 8192);
         case MessageKind::NoteOff:
             break;
     }
-    return text("ch %-2d note off    %-4s (%d)  velocity %d", channel, key.c_str(), first, second);
+    return formatted("ch %-2d note off    %-4s (%d)  velocity %d", channel, key.c_str(), first, second);
 }
 
 }  // namespace jawari::host

@@ -1,6 +1,4 @@
 // What each command does to a session.
-#include <array>
-#include <cstdio>
 
 #include "common/parameter_words.h"
 #include "common/text.h"
@@ -15,13 +13,6 @@ namespace {
 
 constexpr double longest_note_s = 600;
 constexpr double longest_wait_s = 3600;
-
-template <class... Values>
-std::string text(const char* format, Values... values) {
-    std::array<char, 200> line{};
-    std::snprintf(line.data(), line.size(), format, values...);
-    return line.data();
-}
 
 Outcome<VerbReply> reply_to(const MaybeError& error, VerbReply reply = {}) {
     if (error) return *error;
@@ -47,7 +38,8 @@ VerbReply help(const VerbCall& call) {
     const std::string wanted = call.arguments.empty() ? std::string() : text_of(call, 0);
     for (const Verb& verb : verb_table())
         if (wanted.empty() || verb.name == wanted)
-            reply.lines.push_back(text("%-42s %s", usage_of(verb).c_str(), std::string(verb.help).c_str()));
+            reply.lines.push_back(
+                formatted("%-42s %s", usage_of(verb).c_str(), std::string(verb.help).c_str()));
     if (reply.lines.empty()) reply.lines.push_back("no command " + in_quotes(wanted));
     return reply;
 }
@@ -138,22 +130,23 @@ VerbReply Session::stats() {
     const double deadline_ms = 1000.0 * facts.frames / facts.rate_hz;
     VerbReply reply;
     reply.lines = {
-        text("load %.1f %% on average, worst block %.1f %% of %.2f ms, %llu blocks late",
-             100 * live.mean_load, 100 * worst_load_, deadline_ms,
-             static_cast<unsigned long long>(live.late_blocks)),
-        text("xruns %llu, clipped samples %.0f, overload step %d (%llu changes)",
-             static_cast<unsigned long long>(live.xruns), clipped, live.overload_level,
-             static_cast<unsigned long long>(live.overload_changes)),
-        text("held notes %zu, voices %zu, instruments %zu, energy %.3g J", live.held_notes, live.voices,
-             live.instruments, live.energy_J),
-        text("notes %llu, ignored %llu, stolen %llu, faded %llu", static_cast<unsigned long long>(live.notes),
-             static_cast<unsigned long long>(live.ignored_notes),
-             static_cast<unsigned long long>(live.stolen_notes),
-             static_cast<unsigned long long>(live.faded_voices)),
-        text("MIDI messages %llu, lost %llu; resets of strings %llu",
-             static_cast<unsigned long long>(live.messages),
-             static_cast<unsigned long long>(live.dropped_messages),
-             static_cast<unsigned long long>(live.nonfinite_resets)),
+        formatted("load %.1f %% on average, worst block %.1f %% of %.2f ms, %llu blocks late",
+                  100 * live.mean_load, 100 * worst_load_, deadline_ms,
+                  static_cast<unsigned long long>(live.late_blocks)),
+        formatted("xruns %llu, clipped samples %.0f, overload step %d (%llu changes)",
+                  static_cast<unsigned long long>(live.xruns), clipped, live.overload_level,
+                  static_cast<unsigned long long>(live.overload_changes)),
+        formatted("held notes %zu, voices %zu, instruments %zu, energy %.3g J", live.held_notes, live.voices,
+                  live.instruments, live.energy_J),
+        formatted("notes %llu, ignored %llu, stolen %llu, faded %llu",
+                  static_cast<unsigned long long>(live.notes),
+                  static_cast<unsigned long long>(live.ignored_notes),
+                  static_cast<unsigned long long>(live.stolen_notes),
+                  static_cast<unsigned long long>(live.faded_voices)),
+        formatted("MIDI messages %llu, lost %llu; resets of strings %llu",
+                  static_cast<unsigned long long>(live.messages),
+                  static_cast<unsigned long long>(live.dropped_messages),
+                  static_cast<unsigned long long>(live.nonfinite_resets)),
     };
     reply.values = {{"load", live.mean_load},
                     {"worst_load", worst_load_},
