@@ -35,7 +35,8 @@ stage() {
         stages+=("$name: passed, $((SECONDS - start)) s")
     else
         stages+=("$name: FAILED, $((SECONDS - start)) s")
-        failures+=("" "== $name failed:" "$(tail -n 25 "$logs/last")")
+        failures+=("" "== $name failed:" "$(grep -E -A 30 '\*\*\*(Failed|Exception|Timeout)' "$logs/last" | tail -n 90)"
+            "$(tail -n 25 "$logs/last")")
         failed=1
         return 1
     fi

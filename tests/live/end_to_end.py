@@ -5,7 +5,6 @@ JAWARI_LIVE_SECONDS (10 unless set): how long it plays.
 import os
 import subprocess
 import sys
-import time
 
 import numpy as np
 
@@ -16,6 +15,7 @@ PRESET = "guitar-steel"
 KEYS = [40, 47, 52, 45, 57, 50, 59, 64]
 NOTE_MS, GAP_MS = 420, 80
 FRAMES, RATE_HZ = 256, 48000
+BLOCK_MS = 1000 * FRAMES / RATE_HZ
 ATTEMPTS = 3
 
 
@@ -34,10 +34,18 @@ def equal_tempered_hz(key):
     return 440 * 2 ** ((key - 69) / 12)
 
 
-def check_pitch(samples, begin, key):
+def sounding_notes(played):
+    """(first frame, frame of the release, key) of each note that the machine let sound for a quarter of a second: where
+    the server loses time, fewer frames pass between two messages."""
+    starts = [(i, frame, message[1]) for i, (frame, message) in enumerate(played) if message[0] & 0xF0 == 0x90]
+    notes = [(frame, played[i + 1][0], key) for i, frame, key in starts]
+    return [note for note in notes if note[1] - note[0] >= RATE_HZ // 4], len(starts)
+
+
+def check_pitch(samples, begin, end, key):
     import estimate
     expected = equal_tempered_hz(key)
-    passage = samples[begin + RATE_HZ // 20:begin + int(0.4 * RATE_HZ)].mean(axis=1)
+    passage = samples[begin + RATE_HZ // 20:end].mean(axis=1)
     found = estimate.measure(passage, expected, expected, RATE_HZ)
     error = estimate.cents(found.frequency_hz, expected)
     assert abs(error) < 8, f"key {key} sounds {error:.1f} cents off"
@@ -76,10 +84,24 @@ def check_loudspeaker(heard_path, recorded):
     return length / RATE_HZ
 
 
+class MachineGaps:
+    """How long the machine kept a thread of high priority waiting at most, on any processor."""
+
+    def __init__(self, bench, program):
+        self.process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        bench.children.append(self.process)
+        assert self.process.stdout.readline().strip() == "ready"
+
+    def end(self):
+        """In ms."""
+        return float(self.process.communicate()[0])
+
+
 class Performance:
     """One run: what was sent, said, recorded and heard."""
 
-    def __init__(self, bench, seconds):
+    def __init__(self, bench, gaps_program, seconds):
+        watch = MachineGaps(bench, gaps_program)
         port = live_bench.free_port()
         keyboard = bench.sender()
         wav, self.midi, self.heard = bench.path("take.wav"), bench.path("take.mid"), bench.path("heard.wav")
@@ -91,14 +113,14 @@ class Performance:
         bench.children.append(recorder)
         self.messages = score(seconds)
         self.sent_s = keyboard.send(self.messages)
-        time.sleep(0.3)  # the last message is still on its way
-        self.stats = Osc(port).values("stats")
         recorder.wait(timeout=30)
+        self.stats = Osc(port).values("stats")
         assert player.end() == 0, player.err
         assert "recorded" in player.err, player.err
         keyboard.end()
         self.samples, rate_hz = live_bench.read_float_wav(wav)
         assert rate_hz == RATE_HZ
+        self.machine_gap_ms = watch.end()
         self.played = live_bench.read_midi_frames(self.midi)
 
     def check_sound(self, bench):
@@ -106,50 +128,44 @@ class Performance:
         assert self.stats["lost_messages"] == 0 and self.stats["messages"] == len(self.messages), self.stats
         assert [m for _, m in self.played] == [m for _, m in self.messages], "other messages were played than sent"
         first = check_silence_before(self.samples, self.played)
-        errors = [check_pitch(self.samples, frame, message[1]) for frame, message in self.played if message[0] & 0xF0 == 0x90]
+        notes, count = sounding_notes(self.played)
+        assert len(notes) >= count / 2, f"{len(notes)} of {count} notes are long enough to have a pitch"
+        errors = [check_pitch(self.samples, *note) for note in notes]
         again, again_stats = live_bench.render_again(bench, self.midi, PRESET, RATE_HZ)
-        assert again_stats["notes"] == len(errors)
+        assert again_stats["notes"] == count
         assert len(again) >= len(self.samples) - RATE_HZ // 2
         assert live_bench.stereo_equal(self.samples, again), "rendered offline, the recorded MIDI sounds different"
         again[first + 1000, 0] += 1e-7
         assert not live_bench.stereo_equal(self.samples, again), "the comparison sees nothing"
-        print(f"{len(errors)} notes, pitch within {max(map(abs, errors)):.2f} cents, {len(self.samples)} frames equal to "
+        print(f"{count} notes, pitch within {max(map(abs, errors)):.2f} cents, {len(self.samples)} frames equal to "
               f"jawari render of the recorded MIDI, bit for bit")
 
     def check_clock(self, bench):
         """What needs a server without gaps."""
+        assert self.stats["xruns"] == 0, f"{self.stats['xruns']} xruns"
         spread = check_times(self.sent_s, self.played)
         heard_s = check_loudspeaker(self.heard, self.samples)
         print(f"no xruns; times within {spread:.0f} frames, {heard_s:.1f} s heard through JACK as recorded; worst block "
-              f"{100 * self.stats['worst_load']:.0f} % of {1000 * FRAMES / RATE_HZ:.1f} ms")
+              f"{100 * self.stats['worst_load']:.0f} % of {BLOCK_MS:.1f} ms")
 
 
-def gaps_without_the_program(bench, seconds):
-    """Times in which the server did not get its clients' work in time, with two clients that do next to nothing."""
-    log = bench.folder / "jackd.log"
-    before = log.read_text().count("XRun")
-    idle = [bench.sender("idle-a"), bench.sender("idle-b")]
-    time.sleep(seconds)
-    for each in idle:
-        each.end()
-    return log.read_text().count("XRun") - before
-
-
-def main(program, sender_program):
+def main(program, sender_program, gaps_program):
+    """The sound is judged in every run. The clock is judged in a run in which the machine let nobody wait for a quarter
+    of a block; failing that, a run that passes all the same will do."""
     seconds = float(os.environ.get("JAWARI_LIVE_SECONDS", "10"))
     with Bench("e2e", program, sender_program, RATE_HZ, FRAMES) as bench:
-        gaps = []
         for _ in range(ATTEMPTS):
-            performance = Performance(bench, seconds)
+            performance = Performance(bench, gaps_program, seconds)
             performance.check_sound(bench)
-            if performance.stats["xruns"] == 0:
+            try:
                 performance.check_clock(bench)
                 return
-            gaps.append(int(performance.stats["xruns"]))
-            print(f"{gaps[-1]} xruns, worst block {100 * performance.stats['worst_load']:.0f} % of its time; once more")
-        others = gaps_without_the_program(bench, seconds * ATTEMPTS)
-        assert others > 0, f"{gaps} xruns in {ATTEMPTS} runs of {seconds} s, and none without the program"
-        print(f"xruns not judged: this machine has {others} in {seconds * ATTEMPTS:.0f} s without the program as well")
+            except AssertionError as problem:
+                if performance.machine_gap_ms < BLOCK_MS / 4:
+                    raise
+                print(f"{problem}, but this machine kept everybody waiting for up to {performance.machine_gap_ms:.1f} ms "
+                      f"(worst block {100 * performance.stats['worst_load']:.0f} % of its time); once more")
+        print("xruns not judged: the machine had gaps of its own in every run")
 
 
 if __name__ == "__main__":
