@@ -140,6 +140,42 @@ double highest_obstacle(const StringModel& model, const StringState& state, std:
     return highest;
 }
 
+struct ForceBoundsOfParts {
+    kernels::ForceBounds low, high;
+};
+
+/// From every mode's own force.
+ForceBoundsOfParts bounds_by_mode(const StringModel& model, const ExcitationState& excitation) {
+    const std::size_t low = std::min(low_modes(model), excitation.modes);
+    const auto first = static_cast<double>(excitation.elapsed);
+    const auto last = static_cast<double>(excitation.elapsed + model.steps_per_frame);
+    const auto bounds_of = [&](std::size_t begin, std::size_t end) {
+        return kernels::force_bounds(begin, end, model.certificate, excitation.held.data(),
+                                     excitation.ramp.data(), first, last);
+    };
+    return {bounds_of(0, low), bounds_of(low, excitation.modes)};
+}
+
+/// From the strength of held point forces: no mode's force exceeds sqrt(2/L) times it.
+ForceBoundsOfParts bounds_by_strength(const StringModel& model, StringState& state) {
+    const std::size_t modes = state.excitation.modes;
+    UnitKick& unit = state.certificate.unit_kick;
+    if (unit.modes != modes) {
+        const std::size_t low = std::min(low_modes(model), modes);
+        const kernels::ForceBounds of_low = kernels::unit_force_bounds(0, low, model.certificate);
+        const kernels::ForceBounds of_high = kernels::unit_force_bounds(low, modes, model.certificate);
+        unit = {modes, of_low.speed, of_low.detour, of_high.speed, of_high.extent, of_high.detour};
+    }
+    const double largest_N = state.excitation.strength_N * std::sqrt(2 / model.length_m);
+    ForceBoundsOfParts force;
+    force.low.speed = force.low.variation = largest_N * unit.low_speed;
+    force.low.detour = largest_N * unit.low_detour;
+    force.high.speed = force.high.variation = largest_N * unit.high_speed;
+    force.high.extent = largest_N * unit.high_extent;
+    force.high.detour = largest_N * unit.high_detour;
+    return force;
+}
+
 }  // namespace
 
 bool needs_refresh(const StringState& state) JAWARI_REALTIME {
@@ -181,6 +217,7 @@ void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIM
     bounds.outdated = false;
     bounds.excited = is_excited(state);
     bounds.kicks = {};
+    bounds.unit_kick.modes = 0;
 }
 
 void wake_excited_modes(StringState& state) JAWARI_REALTIME {
@@ -195,27 +232,19 @@ void wake_excited_modes(StringState& state) JAWARI_REALTIME {
 }
 
 void add_kicks(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    const ExcitationState& excitation = state.excitation;
+    const ForceBoundsOfParts force =
+        state.excitation.passive ? bounds_by_strength(model, state) : bounds_by_mode(model, state.excitation);
     KickState& kicks = state.certificate.kicks;
-    const std::size_t low = std::min(low_modes(model), excitation.modes);
-    const auto first = static_cast<double>(excitation.elapsed);
-    const auto last = static_cast<double>(excitation.elapsed + model.steps_per_frame);
-    const auto bounds_of = [&](std::size_t begin, std::size_t end) {
-        return kernels::force_bounds(begin, end, model.certificate, excitation.held.data(),
-                                     excitation.ramp.data(), first, last);
-    };
-    const kernels::ForceBounds of_low = bounds_of(0, low);
-    const kernels::ForceBounds of_high = bounds_of(low, excitation.modes);
     const double frame_s = frame_length(model);
     const double largest_shape = bound_safety * std::sqrt(2 / model.length_m);
     const double scale = largest_shape * frame_s;
     const double sagitta = largest_shape * frame_s * frame_s / 8;
-    kicks.speed += scale * (of_low.speed + of_high.speed);
-    kicks.overtones += scale * of_high.extent;
-    kicks.detour += scale * (of_low.detour + of_high.detour);
-    kicks.low_detour += scale * of_low.detour;
-    kicks.frame_detour = sagitta * (of_low.variation + of_high.variation);
-    kicks.frame_low_detour = sagitta * of_low.variation;
+    kicks.speed += scale * (force.low.speed + force.high.speed);
+    kicks.overtones += scale * force.high.extent;
+    kicks.detour += scale * (force.low.detour + force.high.detour);
+    kicks.low_detour += scale * force.low.detour;
+    kicks.frame_detour = sagitta * (force.low.variation + force.high.variation);
+    kicks.frame_low_detour = sagitta * force.low.variation;
 }
 
 void complete_clearances(const StringModel& model, StringState& state,

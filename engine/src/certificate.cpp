@@ -60,16 +60,17 @@ std::size_t find_watched(const StringModel& model, StringState& state, double fr
 std::size_t find_watched_under_force(const StringModel& model, StringState& state) {
     CertificateState& bounds = state.certificate;
     const double time = frame_length(model) + lookahead(model);
-    std::size_t watched = 0;
-    for (std::size_t g = 0; g < group_count(model); ++g) {
-        const double limit = bounds.group_odometer[g] + gap_speed(state, g) * time;
-        const std::size_t end = model.certificate.group_begin[g + 1];
-        for (std::size_t c = model.certificate.group_begin[g]; c < end; ++c) {
-            if (!(bounds.open_until[c] > limit))
-                bounds.lookout.watched[watched++] = static_cast<std::uint32_t>(c);
-        }
+    const double kick = bounds.kicks.speed;
+    const double *open_until = bounds.open_until.data(), *odometer = bounds.group_odometer.data();
+    const double* speed = bounds.group_speed.data();
+    std::uint32_t* watched = bounds.lookout.watched.data();
+    std::size_t count = 0;
+    for (std::size_t c = 0; c < model.contact_count; ++c) {
+        const std::size_t g = group_of(model, c);
+        watched[count] = static_cast<std::uint32_t>(c);
+        count += open_until[c] > odometer[g] + (speed[g] + kick) * time ? 0 : 1;
     }
-    return watched;
+    return count;
 }
 
 /// Groups with a contact that its odometer does not certify for the coming frame.
@@ -271,9 +272,14 @@ void advance_bounds(const StringModel& model, StringState& state) JAWARI_REALTIM
     CertificateState& bounds = state.certificate;
     bounds.age += 1;
     if (bounds.clear) return;
-    for (std::size_t g = 0; g < group_count(model); ++g) {
-        bounds.group_odometer[g] += gap_speed(state, g) * frame_length(model) + bounds.group_push[g];
-        bounds.group_push[g] = 0;
+    const double frame_s = frame_length(model);
+    const double kick = bounds.kicks.speed;
+    double *odometer = bounds.group_odometer.data(), *push = bounds.group_push.data();
+    const double* speed = bounds.group_speed.data();
+    const std::size_t groups = group_count(model);
+    for (std::size_t g = 0; g < groups; ++g) {
+        odometer[g] += (speed[g] + kick) * frame_s + push[g];
+        push[g] = 0;
     }
     if (bounds.direct) bounds.outdated = true;  // odometers are to go on from a speed again
 }

@@ -17,9 +17,9 @@ using Vec = hn::Vec<Lanes>;
 
 /// The paths of `count` rows over modes [begin, end).
 template <std::size_t count>
-HWY_INLINE void add_paths(std::size_t begin, std::size_t end, double lag, const FlightModel& flight,
-                          const double* HWY_RESTRICT q, const double* HWY_RESTRICT v, std::size_t first,
-                          TouchedRows& rows) {
+HWY_INLINE void paths_of(std::size_t begin, std::size_t end, double lag, const FlightModel& flight,
+                         const double* HWY_RESTRICT q, const double* HWY_RESTRICT v, std::size_t first,
+                         TouchedRows& rows) {
     const Lanes d;
     const Vec minus_lag = hn::Set(d, -lag);
     Vec middle[count], rise[count];
@@ -40,16 +40,16 @@ HWY_INLINE void add_paths(std::size_t begin, std::size_t end, double lag, const 
         }
     }
     for (std::size_t i = 0; i < count; ++i) {
-        rows.middle[first + i] += hn::GetLane(hn::SumOfLanes(d, middle[i]));
-        rows.rise[first + i] += hn::GetLane(hn::SumOfLanes(d, rise[i]));
+        rows.middle[first + i] = hn::GetLane(hn::SumOfLanes(d, middle[i]));
+        rows.rise[first + i] = hn::GetLane(hn::SumOfLanes(d, rise[i]));
     }
 }
 
-void add_free_paths(std::size_t begin, std::size_t end, double lag, const FlightModel& flight,
-                    const double* HWY_RESTRICT q, const double* HWY_RESTRICT v, TouchedRows& rows) {
+void free_paths(std::size_t begin, std::size_t end, double lag, const FlightModel& flight,
+                const double* HWY_RESTRICT q, const double* HWY_RESTRICT v, TouchedRows& rows) {
     std::size_t i = 0;
-    for (; i + 2 <= rows.count; i += 2) add_paths<2>(begin, end, lag, flight, q, v, i, rows);
-    if (i < rows.count) add_paths<1>(begin, end, lag, flight, q, v, i, rows);
+    for (; i + 2 <= rows.count; i += 2) paths_of<2>(begin, end, lag, flight, q, v, i, rows);
+    if (i < rows.count) paths_of<1>(begin, end, lag, flight, q, v, i, rows);
 }
 
 template <std::size_t count>
@@ -184,15 +184,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace jawari::kernels {
 
-HWY_EXPORT(add_free_paths);
+HWY_EXPORT(free_paths);
 HWY_EXPORT(sum_rows);
 HWY_EXPORT(moved_by_held);
 HWY_EXPORT(point_row);
 HWY_EXPORT(advance_body);
 
-void add_free_paths(std::size_t begin, std::size_t end, double lag, const FlightModel& flight,
-                    const double* q, const double* v, TouchedRows& rows) noexcept {
-    HWY_DYNAMIC_DISPATCH(add_free_paths)(begin, end, lag, flight, q, v, rows);
+void free_paths(std::size_t begin, std::size_t end, double lag, const FlightModel& flight, const double* q,
+                const double* v, TouchedRows& rows) noexcept {
+    HWY_DYNAMIC_DISPATCH(free_paths)(begin, end, lag, flight, q, v, rows);
 }
 
 void sum_rows(std::size_t n, std::size_t count, const double* scales, const double* const* rows,

@@ -10,25 +10,21 @@
 
 namespace jawari::kernels {
 
-/// Rows that touch a string, and what the string does under them.
-struct TouchedRows {
+/// Rows that touch a string, and what the string does under them: the first `count` of each array are set.
+struct TouchedRows {  // NOLINT(cppcoreguidelines-pro-type-member-init)
     std::size_t count = 0;
-    std::array<const double*, touch_slots + 1> row{};
-    std::array<double, touch_slots + 1> middle{};  ///< row (q - lag v)
-    std::array<double, touch_slots + 1> rise{};    ///< its change over the frame in free flight
+    std::array<const double*, touch_slots + 1> row;
+    std::array<double, touch_slots + 1> middle;  ///< row (q - lag v)
+    std::array<double, touch_slots + 1> rise;    ///< its change over the frame in free flight
 };
 
-/// Adds what modes [begin, end) do under all rows.
-void add_free_paths(std::size_t begin, std::size_t end, double lag, const FlightModel& flight,
-                    const double* q, const double* v, TouchedRows& rows) noexcept;
+/// What modes [begin, end) do under all rows.
+void free_paths(std::size_t begin, std::size_t end, double lag, const FlightModel& flight, const double* q,
+                const double* v, TouchedRows& rows) noexcept;
 
 /// sum <- sum of scales[i] rows[i], i < count >= 1, over n modes.
 void sum_rows(std::size_t n, std::size_t count, const double* scales, const double* const* rows,
               double* sum) noexcept;
-
-/// path <- q - lag v - middle
-void path_since(std::size_t n, double lag, const double* q, const double* v, const double* middle,
-                double* path) noexcept;
 
 /// out <- row (q_held - lag v_held): how far the modes have moved at a frame's end per newton held on the
 /// row.

@@ -21,7 +21,7 @@ constexpr double touch_limit_hz = 12000;
 constexpr double pressure_follow = 0.01;
 /// A sweeping touch takes this long to and fro, and is moved every so many frames.
 constexpr double sweep_period_s = 0.04;
-constexpr std::uint64_t sweep_frames = 4;
+constexpr std::uint64_t sweep_frames = 8;
 
 double frame_s(const StringModel& model) {
     return model.step_s * static_cast<double>(model.steps_per_frame);
@@ -41,9 +41,12 @@ void set_reach(const StringModel& model, Touch& touch) {
     std::fill(touch.row.begin() + static_cast<std::ptrdiff_t>(touch.modes), touch.row.end(), 0.0);
 }
 
+// Of the arrays in the structures below only the first entries, one per force that acts, are ever set or
+// read: this runs for every motion in every frame, and clearing them takes a tenth of its time.
+
 /// The touches and, if it acts, the exciter.
-struct ActiveForces {
-    std::array<std::size_t, forces> index{};
+struct ActiveForces {  // NOLINT(cppcoreguidelines-pro-type-member-init)
+    std::array<std::size_t, forces> index;
     std::size_t count = 0;
     std::size_t touches = 0;        ///< those in front
     std::size_t touched_modes = 0;  ///< that any of them reaches
@@ -61,17 +64,17 @@ std::size_t modes_of(const StringModel& model, const TouchState& touches, std::s
 /// w = phi (q - h v/2) under each force at the frame's start, and its change over the frame in free flight.
 kernels::TouchedRows free_paths(const StringModel& model, const StringState& string,
                                 const TouchState& touches, const ActiveForces& active) {
-    kernels::TouchedRows rows;
+    kernels::TouchedRows rows;  // NOLINT(cppcoreguidelines-pro-type-member-init): `count` entries are set
     rows.count = active.count;
     for (std::size_t a = 0; a < active.count; ++a) rows.row[a] = row_of(touches, active.index[a]).data();
     const double lag = model.step_s / 2;
     const double *q = string.displacement.data(), *v = string.velocity.data();
-    kernels::add_free_paths(0, active.touched_modes, lag, model.flight, q, v, rows);
+    kernels::free_paths(0, active.touched_modes, lag, model.flight, q, v, rows);
     if (active.count == active.touches) return rows;
-    kernels::TouchedRows beyond;  // what only the exciter reaches
-    beyond.count = 1;
+    kernels::TouchedRows beyond;  // NOLINT(cppcoreguidelines-pro-type-member-init): one entry is set
+    beyond.count = 1;             // what only the exciter reaches
     beyond.row[0] = touches.exciter.row.data();
-    kernels::add_free_paths(active.touched_modes, model.stride, lag, model.flight, q, v, beyond);
+    kernels::free_paths(active.touched_modes, model.stride, lag, model.flight, q, v, beyond);
     rows.middle[active.touches] += beyond.middle[0];
     rows.rise[active.touches] += beyond.rise[0];
     return rows;
@@ -98,53 +101,46 @@ void set_compliance_of_touches(const StringModel& model, TouchState& touches, co
 }
 
 /// What the touches answer: force_i = alone_i + by_exciter_i F_exciter.
-struct TouchAnswer {
-    std::array<double, touch_slots> alone{};
-    std::array<double, touch_slots> by_exciter{};
+struct TouchAnswer {  // NOLINT(cppcoreguidelines-pro-type-member-init)
+    std::array<double, touch_slots> alone;
+    std::array<double, touch_slots> by_exciter;
 };
 
-/// F_i = -(c/T + k/2) (rise_i + sum_j G_ij F_j) - k (w_i - rest_i), solved for the F of the touches.
-template <std::size_t most>
+/// F_i = -(c/T + k/2) (rise_i + sum_j G_ij F_j) - k (w_i - rest_i), solved for the F of the touches. With one
+/// right side nothing is said of the exciter.
+template <std::size_t most, std::size_t sides>
 TouchAnswer answer_of(const StringModel& model, const TouchState& touches, const ActiveForces& active,
                       const kernels::TouchedRows& paths) {
-    TouchAnswer answer;
-    SmallSystem<most> system;  // NOLINT(cppcoreguidelines-pro-type-member-init): the first n are set
+    TouchAnswer answer;        // NOLINT(cppcoreguidelines-pro-type-member-init): the first n are set
+    SmallSystem<most> system;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
     const std::size_t n = active.touches;
+    const double per_frame_s = 1 / frame_s(model);
     for (std::size_t a = 0; a < n; ++a) {
         const std::size_t i = active.index[a];
         const Touch& touch = touches.touches[i];
         const double stiffness = touch.share * touch.stiffness_N_per_m;
-        const double drag = touch.share * touch.damping_kg_per_s / frame_s(model) + stiffness / 2;
+        const double drag = touch.share * touch.damping_kg_per_s * per_frame_s + stiffness / 2;
         for (std::size_t b = 0; b < n; ++b)
             system.matrix[a][b] =
                 (a == b ? 1.0 : 0.0) + drag * touches.compliance[i * forces + active.index[b]];
         system.right[a][0] = -drag * paths.rise[a] - stiffness * (paths.middle[a] - touch.rest_m);
-        system.right[a][1] = -drag * touches.compliance[i * forces + exciter_index];
+        if (sides == 2) system.right[a][1] = -drag * touches.compliance[i * forces + exciter_index];
     }
-    if constexpr (most == 2) {
-        if (n < 2) {
-            system.matrix[0][1] = system.matrix[1][0] = 0;
-            system.matrix[1][1] = 1;
-            system.right[1] = {0, 0};
-        }
-        solve_two(system);  // I + D G with D > 0 and G positive: the determinant is at least 1
-    } else {
-        solve_small_system(system, n);
-    }
+    solve_small_system<most, sides>(system, n);
     for (std::size_t a = 0; a < n; ++a) {
         answer.alone[a] = system.right[a][0];
-        answer.by_exciter[a] = system.right[a][1];
+        answer.by_exciter[a] = sides == 2 ? system.right[a][1] : 0.0;
     }
     return answer;
 }
 
 /// A hand has two places: most often there are no more touches.
+template <std::size_t sides>
 TouchAnswer answer_of_touches(const StringModel& model, const TouchState& touches, const ActiveForces& active,
                               const kernels::TouchedRows& paths) {
-    if (active.touches == 0) return {};
-    if (active.touches <= 2) return answer_of<2>(model, touches, active, paths);
-    return active.touches <= 4 ? answer_of<4>(model, touches, active, paths)
-                               : answer_of<touch_slots>(model, touches, active, paths);
+    if (active.touches <= 2) return answer_of<2, sides>(model, touches, active, paths);
+    return active.touches <= 4 ? answer_of<4, sides>(model, touches, active, paths)
+                               : answer_of<touch_slots, sides>(model, touches, active, paths);
 }
 
 /// How the exciter's point moves: by `rise` without its force, and by `give` per newton of it.
@@ -198,7 +194,7 @@ void move(Touch& touch) {
 
 /// Moves the touches on by a frame; those that are left, and the exciter.
 ActiveForces move_touches(TouchState& touches) {
-    ActiveForces active;
+    ActiveForces active;  // NOLINT(cppcoreguidelines-pro-type-member-init): the first `count` are set
     for (std::size_t i = 0; i < touch_slots; ++i) {
         Touch& touch = touches.touches[i];
         if (!touch.active) continue;
@@ -291,8 +287,9 @@ void apply_touches(const StringModel& model, StringState& string, TouchState& to
     sweep_touches(model, touches, active);
     if (touches.outdated) set_compliance_of_touches(model, touches, active);
     const kernels::TouchedRows paths = free_paths(model, string, touches, active);
-    const TouchAnswer answer = answer_of_touches(model, touches, active, paths);
-    std::array<double, forces> force_N{};
+    const TouchAnswer answer = excites ? answer_of_touches<2>(model, touches, active, paths)
+                                       : answer_of_touches<1>(model, touches, active, paths);
+    std::array<double, forces> force_N;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
     double exciter_N = 0;
     if (excites) {
         exciter_N = exciter_force(string_at_exciter(model, touches, active, paths, answer), touches.exciter);

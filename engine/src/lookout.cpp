@@ -11,17 +11,29 @@
 namespace jawari {
 namespace {
 
+/// What forces add to every group's bounds, and the law's lookahead: read once before a loop over contacts.
+struct Shared {
+    double overtones_m = 0;
+    double detour_m = 0;
+    double lookahead_s = 0;
+    double speed_m_per_s = 0;
+};
+
+Shared shared_by_groups(const StringModel& model, const StringState& state) {
+    const KickState& kicks = state.certificate.kicks;
+    return {kicks.overtones, kicks.low_detour + kicks.frame_low_detour, lookahead(model), kicks.speed};
+}
+
 /// What all modes but the low ones can displace a group's gaps by.
-double overtones(const StringState& state, std::size_t g) {
-    return state.certificate.lookout.group_overtones[g] + state.certificate.kicks.overtones;
+double overtones(const StringState& state, const Shared& shared, std::size_t g) {
+    return state.certificate.lookout.group_overtones[g] + shared.overtones_m;
 }
 
 /// What a gap may dip below both values of its low modes at a frame's ends, the law's lookahead included.
-double dip(const StringModel& model, const StringState& state, std::size_t g) {
-    const LookoutState& lookout = state.certificate.lookout;
-    const KickState& kicks = state.certificate.kicks;
-    return lookout.group_detour[g] + kicks.low_detour + kicks.frame_low_detour + overtones(state, g) +
-           lookahead(model) * gap_speed(state, g);
+double dip(const StringState& state, const Shared& shared, std::size_t g) {
+    const CertificateState& bounds = state.certificate;
+    return bounds.lookout.group_detour[g] + shared.detour_m + overtones(state, shared, g) +
+           shared.lookahead_s * (bounds.group_speed[g] + shared.speed_m_per_s);
 }
 
 /// Bounds of the groups that watched contacts belong to, where they are not known since the last refresh.
@@ -82,19 +94,21 @@ void fly_low_modes(const StringModel& model, StringState& state) {
 }
 
 /// Margin of a watched contact over the frame between the two gaps of its low modes.
-double margin_of(const StringModel& model, const StringState& state, std::size_t c) {
+double margin_of(const StringModel& model, const StringState& state, const Shared& shared, std::size_t c) {
     const LookoutState& lookout = state.certificate.lookout;
-    return std::min(lookout.gap[c], lookout.gap_end[c]) - dip(model, state, group_of(model, c));
+    return std::min(lookout.gap[c], lookout.gap_end[c]) - dip(state, shared, group_of(model, c));
 }
 
 /// A contact certified for the coming frame keeps its margin, and a reading that holds at its end.
-void note_coming_frame(const StringModel& model, StringState& state, std::size_t c, double margin) {
+void note_coming_frame(const StringModel& model, StringState& state, const Shared& shared, std::size_t c,
+                       double margin) {
     CertificateState& bounds = state.certificate;
     const std::size_t g = group_of(model, c);
     bounds.margin[c] = margin;
     bounds.certified_at[c] = state.frame;
-    bounds.open_until[c] = bounds.group_odometer[g] + gap_speed(state, g) * frame_length(model) +
-                           bounds.lookout.gap_end[c] - overtones(state, g);
+    bounds.open_until[c] = bounds.group_odometer[g] +
+                           (bounds.group_speed[g] + shared.speed_m_per_s) * frame_length(model) +
+                           bounds.lookout.gap_end[c] - overtones(state, shared, g);
 }
 
 /// Readings that hold when the odometers have moved on by `frames`.
@@ -102,11 +116,12 @@ void note_end(const StringModel& model, StringState& state, std::size_t watched,
     CertificateState& bounds = state.certificate;
     const LookoutState& lookout = bounds.lookout;
     const double time = frame_length(model) * static_cast<double>(frames);
+    const Shared shared = shared_by_groups(model, state);
     for (std::size_t i = 0; i < watched; ++i) {
         const auto c = lookout.watched[i];
         const std::size_t g = group_of(model, c);
-        bounds.open_until[c] =
-            bounds.group_odometer[g] + gap_speed(state, g) * time + lookout.gap[c] - overtones(state, g);
+        bounds.open_until[c] = bounds.group_odometer[g] + gap_speed(state, g) * time + lookout.gap[c] -
+                               overtones(state, shared, g);
     }
 }
 
@@ -120,12 +135,14 @@ std::size_t look_out(const StringModel& model, StringState& state, std::size_t w
     std::copy_n(state.displacement.begin(), low_modes(model), lookout.displacement.begin());
     std::copy_n(state.velocity.begin(), low_modes(model), lookout.velocity.begin());
     low_gaps(model, state, contacts, lookout.displacement, lookout.gap);
+    const Shared shared = shared_by_groups(model, state);
     std::size_t certified = 0;
     for (; certified < frames; ++certified) {
         fly_low_modes(model, state);
         low_gaps(model, state, contacts, lookout.displacement, lookout.gap_end);
-        const bool open = std::all_of(contacts.begin(), contacts.end(),
-                                      [&](std::uint32_t c) { return margin_of(model, state, c) > 0; });
+        const bool open = std::all_of(contacts.begin(), contacts.end(), [&](std::uint32_t c) {
+            return margin_of(model, state, shared, c) > 0;
+        });
         if (!open) break;
         lookout.gap.swap(lookout.gap_end);
     }
@@ -134,8 +151,8 @@ std::size_t look_out(const StringModel& model, StringState& state, std::size_t w
         return certified;
     }
     for (const auto c : contacts) {
-        const double margin = margin_of(model, state, c);
-        if (margin > 0) note_coming_frame(model, state, c, margin);
+        const double margin = margin_of(model, state, shared, c);
+        if (margin > 0) note_coming_frame(model, state, shared, c, margin);
     }
     return 0;
 }
@@ -146,12 +163,13 @@ std::size_t look_at_flown(const StringModel& model, StringState& state, std::siz
     complete_lookouts(model, state, watched);
     complete_low_gaps(model, state, watched);
     low_gaps(model, state, {lookout.watched.data(), watched}, state.displacement_flown, lookout.gap_end);
+    const Shared shared = shared_by_groups(model, state);
     std::size_t uncertain = 0;
     for (std::size_t i = 0; i < watched; ++i) {
         const auto c = lookout.watched[i];
-        const double margin = margin_of(model, state, c);
+        const double margin = margin_of(model, state, shared, c);
         if (margin > 0) {
-            note_coming_frame(model, state, c, margin);
+            note_coming_frame(model, state, shared, c, margin);
         } else {
             bounds.expired[uncertain++] = c;
         }

@@ -64,6 +64,20 @@ ForceBounds force_bounds(std::size_t begin, std::size_t end, const CertificateMo
             hn::GetLane(hn::SumOfLanes(d, detour)), hn::GetLane(hn::SumOfLanes(d, variation))};
 }
 
+ForceBounds unit_force_bounds(std::size_t begin, std::size_t end, const CertificateModel& certificate) {
+    const Lanes d;
+    Vec speed = hn::Zero(d), extent = hn::Zero(d), detour = hn::Zero(d);
+    for (std::size_t k = begin; k < end; k += hn::Lanes(d)) {
+        const Vec kick = hn::Load(d, certificate.kick.data() + k);
+        speed = hn::Add(speed, kick);
+        extent = hn::MulAdd(hn::Load(d, certificate.extent.data() + k), kick, extent);
+        detour = hn::MulAdd(hn::Load(d, certificate.detour.data() + k), kick, detour);
+    }
+    const double speed_sum = hn::GetLane(hn::SumOfLanes(d, speed));
+    return {speed_sum, hn::GetLane(hn::SumOfLanes(d, extent)), hn::GetLane(hn::SumOfLanes(d, detour)),
+            speed_sum};
+}
+
 /// y <- y + scale (a - b) over any n, without alignment; without b where `mirrors` is false
 template <bool mirrors>
 HWY_INLINE void add_response(std::size_t n, double scale, const double* HWY_RESTRICT a,
@@ -131,6 +145,7 @@ namespace jawari::kernels {
 
 HWY_EXPORT(add_force_response);
 HWY_EXPORT(force_bounds);
+HWY_EXPORT(unit_force_bounds);
 HWY_EXPORT(spread_impulse);
 HWY_EXPORT(mode_bounds);
 
@@ -142,6 +157,11 @@ bool add_force_response(std::size_t n, const FlightModel& flight, const double* 
 ForceBounds force_bounds(std::size_t begin, std::size_t end, const CertificateModel& certificate,
                          const double* held, const double* ramp, double first, double last) noexcept {
     return HWY_DYNAMIC_DISPATCH(force_bounds)(begin, end, certificate, held, ramp, first, last);
+}
+
+ForceBounds unit_force_bounds(std::size_t begin, std::size_t end,
+                              const CertificateModel& certificate) noexcept {
+    return HWY_DYNAMIC_DISPATCH(unit_force_bounds)(begin, end, certificate);
 }
 
 void spread_impulse(const StringModel& model, std::span<const std::uint32_t> near, const StepImpulse& step,

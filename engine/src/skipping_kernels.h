@@ -28,6 +28,10 @@ struct ForceBounds {
 ForceBounds force_bounds(std::size_t begin, std::size_t end, const CertificateModel& certificate,
                          const double* held, const double* ramp, double first, double last) noexcept;
 
+/// The same for modal forces that stay at 1.
+ForceBounds unit_force_bounds(std::size_t begin, std::size_t end,
+                              const CertificateModel& certificate) noexcept;
+
 struct StepImpulse {
     std::size_t struck = 0;  ///< contact
     double impulse = 0;      ///< [N s]

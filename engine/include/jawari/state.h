@@ -98,6 +98,17 @@ struct KickState {
     double frame_low_detour = 0;  ///< [m]
 };
 
+/// What a modal force of 1 N m^(-1/2) on each of the modes that forces reach does to the bounds in a unit of
+/// time: sums over the low modes and over the others (docs/certificate.md, section 5).
+struct UnitKick {
+    std::size_t modes = 0;  ///< that the sums cover; 0: not known since the last refresh
+    double low_speed = 0;
+    double low_detour = 0;
+    double high_speed = 0;
+    double high_extent = 0;
+    double high_detour = 0;
+};
+
 /// Bounds that hold until an impulse, a force or an outside change of state (docs/certificate.md).
 struct CertificateState {
     AlignedVector<double> speed;  ///< scratch over modes: r_k, bound of |v_k|
@@ -138,6 +149,7 @@ struct CertificateState {
     double clear_energy_J = 0;  ///< below this it is clear,
     double clear_force_N = 0;   ///< under passive forces of this strength together
     KickState kicks;
+    UnitKick unit_kick;
     double strongest_speed = 0;   ///< largest r_k ever [m^(3/2)/s]
     double strongest_extent = 0;  ///< largest |q_k| bound ever
 };
