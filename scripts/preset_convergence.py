@@ -4,7 +4,8 @@
 Renders single notes at several settings and compares each with the finest in third-octave bands (60 Hz to 16.5 kHz).
 Collisions are chaotic, so spectra are compared; the waveform's error over the first 50 ms stands beside them.
 
-usage: preset_convergence.py [--jawari PROGRAM] [--preset FILE] [--note KEY:VELOCITY]...        (needs numpy)
+usage: preset_convergence.py [--jawari PROGRAM] [--preset FILE] [--note KEY:VELOCITY]... [--setting RATE_HZ:LIMIT_HZ]...
+(needs numpy)
 """
 import argparse
 import json
@@ -61,8 +62,10 @@ def main():
     parser.add_argument("--jawari", default=ROOT / "build/release/bin/jawari")
     parser.add_argument("--preset", default=ROOT / "presets/instruments/bass-fretted.json", type=pathlib.Path)
     parser.add_argument("--note", action="append", metavar="KEY:VELOCITY", help="instead of the bass's E1 B1 A2")
+    parser.add_argument("--setting", action="append", metavar="RATE_HZ:LIMIT_HZ", help="instead of those of the bass")
     options = parser.parse_args()
     notes = {note.split(":")[0]: tuple(map(int, note.split(":"))) for note in options.note} if options.note else NOTES
+    settings = [tuple(map(float, pair.split(":"))) for pair in options.setting] if options.setting else SETTINGS
     preset = json.loads(options.preset.read_text())
     print("note  contact rate  mode limit  bands rms  bands max  first 50 ms  real time")
     with tempfile.TemporaryDirectory() as name:
@@ -71,7 +74,7 @@ def main():
             finest, _ = render(options.jawari, preset, FINEST, key, velocity, folder)
             reference = band_levels_db(finest)
             start = slice(0, RATE_HZ // 20)
-            for setting in SETTINGS:
+            for setting in settings:
                 sound, stats = render(options.jawari, preset, setting, key, velocity, folder)
                 error = band_levels_db(sound) - reference
                 wave = np.linalg.norm(sound[start] - finest[start]) / np.linalg.norm(finest[start])

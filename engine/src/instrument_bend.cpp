@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bounds.h"
 #include "certificate.h"
 #include "jawari/energy.h"
 #include "retune_kernel.h"
@@ -44,6 +45,7 @@ void adopt(const StringModel& base, StringModel& bent) {
     bent.certificate.group_begin = base.certificate.group_begin;
     bent.certificate.envelope = base.certificate.envelope;
     bent.certificate.reach = base.certificate.reach;
+    bent.certificate.push = base.certificate.push_speed;
     bent.response_stride = base.response_stride;
     bent.contact_count = base.contact_count;
     bent.contact_stride = base.contact_stride;
@@ -87,6 +89,7 @@ void reserve(StringModel& bent, const StringSizes& sizes) {
     }
     c.group_begin.reserve(sizes.groups + 1);
     c.reach.reserve(sizes.contacts);
+    if (sizes.contacts <= contacts_with_own_bounds) c.push.reserve(sizes.contacts * sizes.contacts);
     bent.contact_height.reserve(sizes.contacts);
     bent.contact_restitution.reserve(sizes.contacts);
     bent.contact_position.reserve(sizes.contacts);
@@ -100,8 +103,9 @@ void begin(const StoppedStringModel& stopped, Voice& voice) {
     std::copy(stopped.backward_q.begin(), stopped.backward_q.end(), bend.backward_q.begin());
     std::copy(stopped.backward_u.begin(), stopped.backward_u.end(), bend.backward_u.begin());
     bend.active = true;
-    // What impulses push within a frame is not known at this tension: near frames take all contacts.
-    voice.string.skipping.near = false;
+    // There is no response table at this tension: near frames are stepped, with all contacts if it is not
+    // known how impulses push those that are not near.
+    voice.string.skipping.near = !bend.model.certificate.push.empty();
 }
 
 void restore(const StoppedStringModel& stopped, Voice& voice) {

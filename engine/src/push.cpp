@@ -18,7 +18,7 @@ double push_of_step(const StringModel& model, const StringState& state, std::siz
         speed += push[c] * contact.impulse[c];
     }
     const double time_left = model.step_s * static_cast<double>(state.steps_left) + lookahead(model);
-    return bound_safety * speed * time_left;
+    return bound_safety * model.certificate.push_growth * speed * time_left;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bounds.h"
 #include "impact_law.h"
 #include "kernels.h"
 #include "near_kernels.h"
@@ -174,6 +175,7 @@ void set_responses(StringModel& model) {
     } else {
         set_grid_responses(model);
     }
+    if (count <= contacts_with_own_bounds) model.certificate.push_speed = model.certificate.push;
     const std::vector<std::size_t>& begin = model.certificate.group_begin;
     for (std::size_t g = 0; g + 1 < begin.size(); ++g) {
         for (std::size_t struck = 0; struck < count; ++struck) {

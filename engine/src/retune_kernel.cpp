@@ -156,7 +156,8 @@ void retune(const StoppedStringModel& base, const Retuning& retuning, StringMode
         hn::Store(hn::IfThenElse(bends, step.backward_q, old_q), d, backward_q + k);
     }
     bent.certificate.reach_growth = std::sqrt(hn::GetLane(hn::MaxOfLanes(d, reach_growth)));
-    bent.certificate.force_reach = from.certificate.force_reach * hn::GetLane(hn::MaxOfLanes(d, kick_growth));
+    bent.certificate.push_growth = hn::GetLane(hn::MaxOfLanes(d, kick_growth));
+    bent.certificate.force_reach = from.certificate.force_reach * bent.certificate.push_growth;
 }
 
 }  // namespace jawari::kernels::HWY_NAMESPACE

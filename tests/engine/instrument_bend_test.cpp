@@ -188,5 +188,79 @@ TEST(Bend, ShapeAndTrueVelocityStayWhatTheyAre) {
     EXPECT_NEAR(work.bends_J, 0, 1e-12 * energy(stopped.string, voice.string));
 }
 
+/// A string over frets that is plucked hard while it is bent to and fro.
+struct BentPluck {
+    std::vector<double> displacement;  ///< of the first modes, frame by frame
+    Counters counters;
+};
+
+BentPluck bent_pluck(const InstrumentModel& model, const Skipping& skipping, double speed) {
+    const InstrumentStringModel& string = model.strings[0];
+    const StoppedStringModel& stopped = string.stopped[0];
+    Voice voice = make_voice(string.sizes);
+    start_voice(model, string, voice, 0, 0, 0);
+    voice.string.skipping = skipping;
+    for (std::size_t k = 0; k < 30; ++k)
+        voice.string.velocity[k] =
+            speed * std::sin(0.6 * static_cast<double>(k + 1)) / static_cast<double>(k + 1);
+    notice_change(stopped.string, voice.string);
+    BentPluck played;
+    PlayerWork work;
+    for (int frame = 0; frame < 3000; ++frame) {
+        if (frame % 16 == 0) set_bend(stopped, voice, 1.5 + std::sin(frame / 300.0), work);
+        advance_frame(voice_model(string, voice), voice.string);
+        for (std::size_t k = 0; k < 8; ++k) played.displacement.push_back(voice.string.displacement[k]);
+    }
+    played.counters = voice.string.counters;
+    return played;
+}
+
+TEST(Bend, NearContactsAloneAreStruckAsAmongAll) {
+    InstrumentDescription bass = test::bass_instrument();
+    bass.strings.resize(1);
+    const InstrumentModel model = compile_instrument(bass, 48000).value();
+    const StringModel& open = model.strings[0].stopped[0].string;
+    ASSERT_GT(open.contact_count, 10U);
+    ASSERT_EQ(open.certificate.push_speed.size(), open.contact_count * open.contact_count);
+    std::uint64_t impulses = 0, flown = 0;
+    for (const double speed : {0.2, 0.5, 1.0, 2.0}) {
+        const BentPluck skipped = bent_pluck(model, skip_all, speed);
+        const BentPluck uniform = bent_pluck(model, skip_nothing, speed);
+        EXPECT_EQ(skipped.counters.impulses, uniform.counters.impulses) << speed;
+        for (std::size_t i = 0; i < uniform.displacement.size(); ++i)
+            ASSERT_NEAR(skipped.displacement[i], uniform.displacement[i], 1e-10 * speed / open.omega[0])
+                << speed << " frame " << i / 8;
+        impulses += uniform.counters.impulses;
+        flown += skipped.counters.flown_frames;
+    }
+    EXPECT_GT(impulses, 1000U);
+    EXPECT_GT(flown, 1000U);
+}
+
+/// What impulses do to the bounds of other contacts at the bent tension, from its definition.
+TEST(Bend, PushesGrowByNoMoreThanTheirFactor) {
+    InstrumentDescription bass = test::bass_instrument();
+    bass.strings.resize(1);
+    const InstrumentModel model = compile_instrument(bass, 48000).value();
+    const StoppedStringModel& stopped = model.strings[0].stopped[0];
+    for (const double semitones : {-12.0, -0.5, 1.0, 12.0}) {
+        Voice voice = make_voice(model.strings[0].sizes);
+        start_voice(model, model.strings[0], voice, 0, 0, 0);
+        PlayerWork work;
+        set_bend(stopped, voice, semitones, work);
+        const StringModel& bent = voice.bend.model;
+        for (std::size_t g = 0; g < bent.contact_count; ++g) {
+            for (std::size_t c = 0; c < bent.contact_count; ++c) {
+                double push = 0;
+                for (std::size_t k = 0; k < bent.mode_count; ++k)
+                    push += std::abs(bent.contact_rows[g * bent.stride + k] * bent.certificate.kick[k] *
+                                     bent.contact_rows[c * bent.stride + k]);
+                EXPECT_LE(push, bent.certificate.push[g * bent.contact_count + c] *
+                                    bent.certificate.push_growth * (1 + 1e-12));
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace jawari
