@@ -9,11 +9,11 @@
 #include <optional>
 #include <vector>
 
+#include "../engine/injure.h"
 #include "../engine/small_instrument.h"
 #include "check.h"
 #include "common/denormals.h"
 #include "event_bytes.h"
-#include "injure.h"
 #include "instrument_watch.h"
 #include "jawari/instrument_rungs.h"
 
@@ -80,7 +80,7 @@ void act_between(const fuzz::EventBlock& block, const InstrumentModel& model, In
             fade_oldest_released(state);
             break;
         case fuzz::Between::Injure:
-            fuzz::injure(state.strings[s], block.what, block.where);
+            test::injure(state.strings[s], block.what, block.where);
             break;
     }
 }

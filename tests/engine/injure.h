@@ -9,7 +9,7 @@
 
 #include "jawari/instrument_state.h"
 
-namespace jawari::fuzz {
+namespace jawari::test {
 
 inline constexpr std::size_t injury_kinds = 12;
 
@@ -63,4 +63,4 @@ inline void injure(InstrumentStringState& string, std::size_t what, std::size_t 
     }
 }
 
-}  // namespace jawari::fuzz
+}  // namespace jawari::test
