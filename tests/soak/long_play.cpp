@@ -43,12 +43,12 @@ ChannelMessage bend(int value) {
     return {0xE0, static_cast<std::uint8_t>(value & 127), static_cast<std::uint8_t>(value >> 7)};
 }
 
-/// The music of a minute, in order. `key`: of the string that rings on.
+/// The music of a minute, in order. `key`: of the string that rings on, the highest; the phrase is below it.
 std::vector<Cue> minute_of_music(int key) {
     std::vector<Cue> cues;
     for (double t = 0; t < minute_s; t += pluck_s) cues.push_back({t, note_on(key, 80)});
     for (int i = 0; i < 4; ++i) {
-        const int other = key + 7 + 4 * i;
+        const int other = key - 5 - 3 * i;
         const double t = 2 + i;
         cues.push_back({t, note_on(other, 40 + 20 * i)});
         cues.push_back({t + 0.45, note_off(other)});
@@ -112,8 +112,8 @@ class Performance {
   public:
     Performance(const host::SharedInstrument& instrument, double rate_hz)
         : rate_hz_(rate_hz),
-          key_(instrument->model.strings.front().stopped.front().key),
-          nominal_hz_(instrument->model.strings.front().stopped.front().frequency_hz),
+          key_(instrument->model.strings.back().stopped.front().key),
+          nominal_hz_(instrument->model.strings.back().stopped.front().frequency_hz),
           cues_(minute_of_music(key_)),
           player_(settings(rate_hz)),
           port_(player_.add_port()) {
