@@ -19,13 +19,11 @@ compiler=clang++-22
 command -v $compiler > /dev/null || { echo "realtime_sanitizer.sh: no $compiler; scripts/setup.sh --realtime" >&2; exit 1; }
 
 build=build/realtime
-cmake -B $build -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" \
-    -DCMAKE_C_COMPILER=clang-22 -DCMAKE_CXX_COMPILER=$compiler -DJAWARI_SANITIZE=realtime -DJAWARI_BUILD_BENCHMARKS=OFF \
-    -DCMAKE_EXPORT_COMPILE_COMMANDS=ON > /dev/null
+mkdir -p $build
 failed=0
 
-# The effects of a function that is not marked are found from its body, where the compiler sees it; what a marked function
-# calls in another file must be marked there. One instruction set is read: the other copies are the same source.
+# The effects of a function that is not marked are found from its body, where the compiler sees it; what is called in
+# another file must be marked there. One instruction set is read: the other copies are the same source.
 mapfile -t sources < <(grep -l JAWARI_REALTIME -r engine/src host --include='*.cpp' | sort)
 : > $build/effects.log
 for source in "${sources[@]}"; do
@@ -33,28 +31,51 @@ for source in "${sources[@]}"; do
     $compiler -fsyntax-only -std=c++20 -Wfunction-effects -DHWY_COMPILE_ONLY_STATIC -Iengine/include -Iengine/src -Ihost \
         -isystem /usr/include/eigen3 "$source" 2>> $build/effects.log || failed=1
 done
-warnings=$(grep -c 'warning:.*\[-Wfunction-effects\]' $build/effects.log || true)
-echo "function effects: ${#sources[@]} files, $warnings warnings"
-((warnings == 0)) || failed=1
+# Every warning ends in a reason. Reasons that are known, and why they do no harm, are named here; any other is a failure.
+/usr/bin/python3 - $build/effects.log ${#sources[@]} << 'PYTHON' || failed=1
+import collections
+import re
+import sys
+
+KNOWN = (  # what the last notes of a warning say, what to call it
+    (r"no definition in this translation unit\n.*\| void operator delete\(", "vectors copied into room that is there"),
+    (r"no definition in this translation unit", "function of another file that is not marked: left to the sanitizer"),
+    (r"function pointer cannot be inferred", "the clock, a function pointer"),
+    (r"vector\.tcc:\d+:\d+: note: .*throws|stl_uninitialized\.h:\d+:\d+: note: .*throws",
+     "push_back() into room that is reserved"),
+    (r"eigen3/Eigen/src/Core/util/Memory\.h:\d+:\d+: note: .*throws", "Eigen's solver, on the stack up to 128 KiB"),
+    (r"spsc_queue<", "a queue without locks"),
+)
+text = open(sys.argv[1], encoding="utf-8").read()
+warnings = re.split(r"(?m)^(?=\S+: warning: )", text)[1:]
+kinds, unknown = collections.Counter(), []
+for warning in warnings:
+    kind = next((name for pattern, name in KNOWN if re.search(pattern, warning)), None)
+    kinds[kind] += 1
+    if kind is None:
+        unknown.append(warning)
+print(f"function effects: {sys.argv[2]} files, {len(warnings)} warnings, {len(unknown)} of them unexplained")
+for kind, count in kinds.most_common():
+    if kind:
+        print(f"  {count}: {kind}")
+for warning in unknown:
+    print(warning, file=sys.stderr)
+sys.exit(bool(unknown) or "error:" in text)
+PYTHON
 $run || exit $failed
 
-cmake --build $build --parallel "${JOBS:-$(nproc)}" --target engine_tests jawari_soak replay_events replay_scene >&2
+cmake -B $build -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" \
+    -DCMAKE_C_COMPILER=clang-22 -DCMAKE_CXX_COMPILER=$compiler -DJAWARI_SANITIZE=realtime -DJAWARI_BUILD_BENCHMARKS=OFF \
+    -DJAWARI_BUILD_HOST=OFF > /dev/null
+cmake --build $build --parallel "${JOBS:-$(nproc)}" --target engine_tests >&2
 export RTSAN_OPTIONS=halt_on_error=false:suppress_equal_stacks=true
 export RTSAN_SYMBOLIZER_PATH=/usr/bin/llvm-symbolizer-22
 
-# watched NAME COMMAND...
-watched() {
-    local name=$1 begin=$SECONDS found status=0
-    shift
-    echo "-- $name" >&2
-    "$@" > "$build/$name.out" 2> "$build/$name.log" || status=$?
-    found=$(grep -c 'ERROR: RealtimeSanitizer' "$build/$name.log" || true)
-    echo "realtime sanitizer, $name: $found found, exit $status, $((SECONDS - begin)) s"
-    if ((found > 0 || status != 0)); then failed=1; fi
-}
-# The tests of what the engine does, not of whether it is exact.
-watched engine $build/bin/engine_tests --gtest_brief=1 --gtest_filter='Storm.*:*InstrumentNonFinite*:*NonFinite*:Touches.*:Hammer.*:Bend.*:Transfer.*:InstrumentRungs.*:Render.*'
-watched performances $build/bin/replay_events $build/seeds/events
-watched scenes $build/bin/replay_scene $build/seeds/scene
-watched playing $build/bin/jawari_soak --hours 0.05 --preset bass-fretted
+# What marked functions do in tests that play: not whether it is exact.
+filter='Storm.*:*InstrumentNonFinite*:*NonFinite*:Touches.*:Hammer.*:Bend.*:Transfer.*:InstrumentRungs.*:Render.*'
+begin=$SECONDS status=0
+$build/bin/engine_tests --gtest_brief=1 --gtest_filter="$filter" > $build/engine.out 2> $build/engine.log || status=$?
+found=$(grep -c 'ERROR: RealtimeSanitizer' $build/engine.log || true)
+echo "realtime sanitizer: $(sed -n 's/.*PASSED.*  *\([0-9]* tests\).*/\1/p' $build/engine.out) passed, $found calls found, exit $status, $((SECONDS - begin)) s"
+((found == 0 && status == 0)) || failed=1
 exit $failed

@@ -51,7 +51,7 @@ struct Performance {
     std::vector<EventBlock> blocks;
 };
 
-inline constexpr std::size_t most_fuzzed_frames = 2000;  // so that an input takes milliseconds
+inline constexpr std::size_t most_fuzzed_frames = 800;  // so that an input takes milliseconds
 
 namespace detail {
 
