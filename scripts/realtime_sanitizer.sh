@@ -71,6 +71,11 @@ cmake --build $build --parallel "${JOBS:-$(nproc)}" --target engine_tests >&2
 export RTSAN_OPTIONS=halt_on_error=false:suppress_equal_stacks=true
 export RTSAN_SYMBOLIZER_PATH=/usr/bin/llvm-symbolizer-22
 
+# The sanitizer is shown to find something.
+printf '#include <cstdlib>\nvoid* taken = nullptr;\nvoid take() noexcept [[clang::nonblocking]] { taken = std::malloc(9); }\nint main() { take(); }\n' > $build/takes.cpp
+$compiler -fsanitize=realtime $build/takes.cpp -o $build/takes
+$build/takes 2>&1 | grep -q 'ERROR: RealtimeSanitizer' || { echo "realtime_sanitizer.sh: the sanitizer finds nothing at all" >&2; exit 1; }
+
 # What marked functions do in tests that play: not whether it is exact.
 filter='Storm.*:*InstrumentNonFinite*:*NonFinite*:Touches.*:Hammer.*:Bend.*:Transfer.*:InstrumentRungs.*:Render.*'
 begin=$SECONDS status=0
