@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
 # Installs what building and testing need on Debian 12: the one list of every dependency.
-# Usage: scripts/setup.sh [--full] [--bench]
+# Usage: scripts/setup.sh [--full] [--bench] [--coverage] [--realtime]
 #   --full: also what scripts/test.sh --full needs (lint, fuzzing, instruction counts)
 #   --bench: also what scripts/bench.sh needs (plots, instruction counts, other people's instruments)
+#   --coverage: also what scripts/coverage.sh needs
+#   --realtime: also what scripts/realtime_sanitizer.sh needs (a compiler of 2025, from Debian's security archive)
 # Asks nothing; does nothing when all is there.
 set -euo pipefail
 
@@ -56,12 +58,22 @@ packages_bench=(
     libstk-dev        # peer: plucked strings
     faust             # peer: physical models
 )
+packages_coverage=(
+    gcovr             # sums up what gcov counts
+)
+packages_realtime=(
+    clang-22          # -Wfunction-effects, -fsanitize=realtime
+    libclang-rt-22-dev # the sanitizer's run time
+    llvm-22           # llvm-symbolizer: lines instead of addresses
+)
 
 for argument in "$@"; do
     case "$argument" in
         --full) packages+=("${packages_full[@]}") ;;
         --bench) packages+=("${packages_bench[@]}") ;;
-        *) echo "setup.sh: unknown argument '$argument' (allowed: --full, --bench)" >&2; exit 2 ;;
+        --coverage) packages+=("${packages_coverage[@]}") ;;
+        --realtime) packages+=("${packages_realtime[@]}") ;;
+        *) echo "setup.sh: unknown argument '$argument' (allowed: --full, --bench, --coverage, --realtime)" >&2; exit 2 ;;
     esac
 done
 

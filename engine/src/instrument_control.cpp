@@ -32,7 +32,7 @@ void follow_bend(const InstrumentModel& model, InstrumentState& state, std::size
     const double wanted = bend_target(model, state, s);
     double& target = voice.bend.target;
     target += follow_share(model, control_frames, bend_follow_s) * (wanted - target);
-    if (std::abs(wanted - target) < close_enough) target = wanted;
+    if (!(std::abs(wanted - target) >= close_enough)) target = wanted;  // also if it is no number
     double semitones = target;
     if (voice.slide.active) {
         SlideState& slide = voice.slide;

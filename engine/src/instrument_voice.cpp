@@ -181,6 +181,7 @@ VoiceSignals advance_voice(const InstrumentModel& model, const InstrumentStringM
     const StoppedStringModel& stopped = string.stopped[voice.fret];
     apply_touches(coefficients, voice.string, voice.touches);
     const std::uint64_t impulses = voice.string.counters.impulses;
+    const std::uint64_t resets = voice.string.counters.nonfinite_resets;
     advance_frame(coefficients, voice.string);
     const bool struck = voice.string.counters.impulses != impulses;
     meter_touches(coefficients, voice.string, voice.touches, struck, state.work);
@@ -193,6 +194,14 @@ VoiceSignals advance_voice(const InstrumentModel& model, const InstrumentStringM
     signals.right = voice.gains.right * signals.pickups;
     if (model.body.count > 0)
         signals.bridge_N = gain * voice.gains.body * bridge_force(stopped, voice.string);
+    const bool finite = std::isfinite(signals.left + signals.right + signals.bridge_N);
+    if (!finite || voice.string.counters.nonfinite_resets != resets) {
+        // The string is at rest, but what has lost it may be a hand, a hammer or a gain: the motion ends, and
+        // the next note starts with nothing of it.
+        voice.string.counters.nonfinite_resets = resets + 1;
+        finish(voice, state);
+        return {};
+    }
     if (has_ended(model, string, voice)) finish(voice, state);
     return signals;
 }

@@ -20,6 +20,7 @@ struct Ran {
     int exit_code = -1;  ///< 1000 + signal if it was killed
     std::string out;
     std::string err;
+    long resident_kib = 0;  ///< most memory that it held
 
     [[nodiscard]] auto error_lines() const { return std::count(err.begin(), err.end(), '\n'); }
 };
@@ -28,9 +29,14 @@ struct RunOptions {
     std::uint64_t largest_file_bytes = 0;  ///< 0: no bound. A full disk, as far as write() can tell.
     int signal = 0;                        ///< sent to the program ...
     unsigned signal_after_ms = 0;          ///< ... after this time
+    unsigned signal_after_us = 0;          ///< and this
+    std::uint64_t most_memory_bytes = 0;   ///< 0: no bound; of the address space
+    bool as_nobody = false;                ///< without the rights of root, if the test has them
 };
 
 namespace detail {
+
+inline constexpr unsigned nobody = 65534;
 
 inline void become(const std::vector<std::string>& command, const RunOptions& options, const std::string& out,
                    const std::string& err) {
@@ -42,6 +48,11 @@ inline void become(const std::vector<std::string>& command, const RunOptions& op
         const rlimit bound{options.largest_file_bytes, options.largest_file_bytes};
         setrlimit(RLIMIT_FSIZE, &bound);
     }
+    if (options.most_memory_bytes > 0) {
+        const rlimit bound{options.most_memory_bytes, options.most_memory_bytes};
+        setrlimit(RLIMIT_AS, &bound);
+    }
+    if (options.as_nobody && geteuid() == 0 && (setgid(nobody) != 0 || setuid(nobody) != 0)) _exit(126);
     std::vector<char*> arguments;
     for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
@@ -56,12 +67,14 @@ inline Ran run(const std::vector<std::string>& command, const RunOptions& option
     const pid_t child = fork();
     if (child == 0) detail::become(command, options, folder.file("out"), folder.file("err"));
     if (options.signal != 0) {
-        usleep(options.signal_after_ms * 1000);
+        usleep(options.signal_after_ms * 1000 + options.signal_after_us);
         kill(child, options.signal);
     }
     int status = 0;
-    waitpid(child, &status, 0);
+    rusage used{};
+    wait4(child, &status, 0, &used);
     Ran ran;
+    ran.resident_kib = used.ru_maxrss;
     ran.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
     ran.out = read_text(folder.file("out"));
     ran.err = read_text(folder.file("err"));
