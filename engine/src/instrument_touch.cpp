@@ -21,7 +21,7 @@ constexpr double touch_limit_hz = 12000;
 constexpr double pressure_follow = 0.01;
 /// A sweeping touch takes this long to and fro, and is moved every so many frames.
 constexpr double sweep_period_s = 0.04;
-constexpr std::uint64_t sweep_frames = 8;
+constexpr std::uint64_t sweep_frames = 4;
 
 double frame_s(const StringModel& model) {
     return model.step_s * static_cast<double>(model.steps_per_frame);

@@ -5,8 +5,11 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
+#include "bounds.h"
+#include "excitation.h"
 #include "flight_kernels.h"
 #include "frame.h"
+#include "instrument_touch.h"
 #include "jawari/energy.h"
 #include "jawari/render.h"
 #include "jawari/step_coefficients.h"
@@ -275,6 +278,42 @@ TEST(Certificate, ForcesBendAFrameByNoMoreThanTheirReach) {
             const double ends = std::min(path.front(), path.back());
             EXPECT_GE(*std::min_element(path.begin(), path.end()), ends - model.certificate.force_reach);
             state = rest;
+        }
+    }
+}
+
+/// What the strength of hands tells of the bounds is no less than what their forces on every mode do, and not
+/// far from it where one hand pulls at a point.
+TEST(Certificate, StrengthBoundsWhatForcesDoToEachMode) {
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+        test::RandomScene random(seed);
+        const StringModel model = test::compiled_string(random.scene(ImpactLaw::Signorini, 48000, 1e6));
+        std::vector<AlignedVector<double>> rows(1 + seed % 3, AlignedVector<double>(model.stride));
+        std::vector<const double*> row_of;
+        std::vector<double> force_N;
+        for (AlignedVector<double>& row : rows) {
+            const double x = random.uniform(0.05, 0.95) * model.length_m;
+            write_point_row(model, model.stride, x, random.uniform(0, 0.02) * model.length_m, row.data());
+            row_of.push_back(row.data());
+            force_N.push_back(random.uniform(-2, 2));
+        }
+        const auto kicks_of = [&](bool passive) {
+            StringState state = make_string_state(model);
+            hold_forces(state, {rows.size(), force_N.data(), row_of.data()}, model.stride, model.stride,
+                        passive);
+            add_kicks(model, state);
+            return state.certificate.kicks;
+        };
+        const KickState by_mode = kicks_of(false), by_strength = kicks_of(true);
+        const auto bounds = [](double least, double bound) { return least <= bound * (1 + 1e-12); };
+        EXPECT_TRUE(bounds(by_mode.speed, by_strength.speed)) << seed;
+        EXPECT_TRUE(bounds(by_mode.overtones, by_strength.overtones)) << seed;
+        EXPECT_TRUE(bounds(by_mode.detour, by_strength.detour)) << seed;
+        EXPECT_TRUE(bounds(by_mode.low_detour, by_strength.low_detour)) << seed;
+        EXPECT_TRUE(bounds(by_mode.frame_detour, by_strength.frame_detour)) << seed;
+        EXPECT_TRUE(bounds(by_mode.frame_low_detour, by_strength.frame_low_detour)) << seed;
+        if (rows.size() == 1) {
+            EXPECT_LT(by_strength.speed, 50 * by_mode.speed) << seed;
         }
     }
 }

@@ -99,7 +99,7 @@ struct KickState {
 };
 
 /// What a modal force of 1 N m^(-1/2) on each of the modes that forces reach does to the bounds in a unit of
-/// time: sums over the low modes and over the others (docs/certificate.md, section 5).
+/// time: sums over the low modes and over the others (docs/certificate.md, section 4).
 struct UnitKick {
     std::size_t modes = 0;  ///< that the sums cover; 0: not known since the last refresh
     double low_speed = 0;
