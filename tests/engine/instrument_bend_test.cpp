@@ -215,10 +215,24 @@ BentPluck bent_pluck(const InstrumentModel& model, const Skipping& skipping, dou
     return played;
 }
 
-TEST(Bend, NearContactsAloneAreStruckAsAmongAll) {
+/// Frets below and a board of points close above: what strikes one side is pushed to the other within a
+/// frame.
+InstrumentModel string_between_obstacles() {
     InstrumentDescription bass = test::bass_instrument();
     bass.strings.resize(1);
-    const InstrumentModel model = compile_instrument(bass, 48000).value();
+    for (double& height_m : bass.frets.height_m) height_m = -0.0002;
+    ObstacleDescription above;
+    above.name = "board";
+    above.origin = Origin::Nut;
+    above.side = Side::Above;
+    above.profile = CornerProfile{{{0.02, 0.0002}, {0.5, 0.0002}}};
+    above.points = 24;
+    bass.obstacles = {above};
+    return compile_instrument(bass, 48000).value();
+}
+
+TEST(Bend, NearContactsAloneAreStruckAsAmongAll) {
+    const InstrumentModel model = string_between_obstacles();
     const StringModel& open = model.strings[0].stopped[0].string;
     ASSERT_GT(open.contact_count, 10U);
     ASSERT_EQ(open.certificate.push_speed.size(), open.contact_count * open.contact_count);
