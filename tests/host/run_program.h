@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,12 @@ struct Ran {
 struct RunOptions {
     std::uint64_t largest_file_bytes = 0;  ///< 0: no bound. A full disk, as far as write() can tell.
     int signal = 0;                        ///< sent to the program ...
-    unsigned signal_after_ms = 0;          ///< ... after this time
-    unsigned signal_after_us = 0;          ///< and this
-    std::uint64_t most_memory_bytes = 0;   ///< 0: no bound; of the address space
-    bool as_nobody = false;                ///< without the rights of root, if the test has them
+    std::function<bool()>
+        signal_when;               ///< ... once this holds (asked again and again, until the program ends)
+    unsigned signal_after_ms = 0;  ///< ... and after this time
+    unsigned signal_after_us = 0;  ///< and this
+    std::uint64_t most_memory_bytes = 0;  ///< 0: no bound; of the address space
+    bool as_nobody = false;               ///< without the rights of root, if the test has them
 };
 
 namespace detail {
@@ -60,16 +63,25 @@ inline void become(const std::vector<std::string>& command, const RunOptions& op
     _exit(127);
 }
 
+inline bool has_ended(pid_t child) {
+    siginfo_t info{};
+    return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid == child;
+}
+
+inline void send_signal(pid_t child, const RunOptions& options) {
+    while (options.signal_when && !options.signal_when() && !has_ended(child)) usleep(50);
+    usleep(options.signal_after_ms * 1000 + options.signal_after_us);
+    kill(child, options.signal);
+}
+
 }  // namespace detail
 
 inline Ran run(const std::vector<std::string>& command, const RunOptions& options = {}) {
     const TemporaryFolder folder;
     const pid_t child = fork();
     if (child == 0) detail::become(command, options, folder.file("out"), folder.file("err"));
-    if (options.signal != 0) {
-        usleep(options.signal_after_ms * 1000 + options.signal_after_us);
-        kill(child, options.signal);
-    }
+    if (options.signal != 0) detail::send_signal(child, options);
     int status = 0;
     rusage used{};
     wait4(child, &status, 0, &used);
