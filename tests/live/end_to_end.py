@@ -101,7 +101,6 @@ class Performance:
     """One run: what was sent, said, recorded and heard."""
 
     def __init__(self, bench, gaps_program, seconds):
-        watch = MachineGaps(bench, gaps_program)
         port = live_bench.free_port()
         keyboard = bench.sender()
         wav, self.midi, self.heard = bench.path("take.wav"), bench.path("take.mid"), bench.path("heard.wav")
@@ -112,15 +111,16 @@ class Performance:
                                     env=bench.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         bench.children.append(recorder)
         self.messages = score(seconds)
+        watch = MachineGaps(bench, gaps_program)
         self.sent_s = keyboard.send(self.messages)
         recorder.wait(timeout=30)
+        self.machine_gap_ms = watch.end()
         self.stats = Osc(port).values("stats")
         assert player.end() == 0, player.err
         assert "recorded" in player.err, player.err
         keyboard.end()
         self.samples, rate_hz = live_bench.read_float_wav(wav)
         assert rate_hz == RATE_HZ
-        self.machine_gap_ms = watch.end()
         self.played = live_bench.read_midi_frames(self.midi)
 
     def check_sound(self, bench):
