@@ -16,10 +16,12 @@
 #include "event_bytes.h"
 #include "instrument_watch.h"
 #include "jawari/instrument_rungs.h"
+#include "sound.h"
 
 namespace {
 
 using namespace jawari;
+using stress::Sound;
 
 constexpr double output_rate_hz = 48000;
 
@@ -54,19 +56,6 @@ const Fuzzed& instrument_of(std::uint8_t byte) {
     if (!all[i]) all[i] = make_fuzzed(laws[i]);
     return *all[i];
 }
-
-struct Sound {
-    std::vector<double> left, right;
-
-    InstrumentOutput append(std::size_t frames) {
-        left.resize(left.size() + frames);
-        right.resize(right.size() + frames);
-        return {left.data() + left.size() - frames, right.data() + right.size() - frames, {}};
-    }
-    [[nodiscard]] stress::Piece tail(std::size_t frames) const {
-        return {std::span(left).last(frames), std::span(right).last(frames)};
-    }
-};
 
 void act_between(const fuzz::EventBlock& block, const InstrumentModel& model, InstrumentState& state) {
     const std::size_t s = block.string % model.strings.size();

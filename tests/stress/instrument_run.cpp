@@ -9,25 +9,13 @@
 #include "instrument_watch.h"
 #include "invariants.h"
 #include "jawari/instrument_rungs.h"
+#include "sound.h"
 
 namespace jawari::stress {
 namespace {
 
 /// Share of the budget for the first pass; the second is cheaper, as it checks nothing.
 constexpr double first_share = 0.7;
-
-struct Sound {
-    std::vector<double> left, right;
-
-    InstrumentOutput append(std::size_t frames) {
-        left.resize(left.size() + frames);
-        right.resize(right.size() + frames);
-        return {left.data() + left.size() - frames, right.data() + right.size() - frames, {}};
-    }
-    [[nodiscard]] Piece tail(std::size_t frames) const {
-        return {std::span(left).last(frames), std::span(right).last(frames)};
-    }
-};
 
 /// Those of the events from `begin` to `end`, counted from `begin`.
 std::vector<InstrumentEvent> events_between(const std::vector<InstrumentEvent>& events, std::size_t begin,
