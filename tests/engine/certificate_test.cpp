@@ -313,7 +313,7 @@ TEST(Certificate, StrengthBoundsWhatForcesDoToEachMode) {
         EXPECT_TRUE(bounds(by_mode.frame_detour, by_strength.frame_detour)) << seed;
         EXPECT_TRUE(bounds(by_mode.frame_low_detour, by_strength.frame_low_detour)) << seed;
         if (rows.size() == 1) {
-            EXPECT_LT(by_strength.speed, 50 * by_mode.speed) << seed;
+            EXPECT_LT(by_strength.speed, 10 * by_mode.speed) << seed;
         }
     }
 }

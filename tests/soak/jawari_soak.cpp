@@ -20,8 +20,8 @@ constexpr std::size_t compared_minutes = 10;
 constexpr double most_cents = 0.01;
 constexpr double most_db = 0.01;
 constexpr double most_kib = 64;
-/// Of the phase, in the day's first 1e9 steps of a mode of 20 kHz: a thousandth of a degree.
-constexpr double most_phase_rad = 2e-5;
+/// Of the phase after 1e9 steps: five times what is published (docs/reliability.md).
+constexpr double most_phase_rad = 1e-8;
 
 std::atomic<bool> interrupted{false};
 extern "C" void on_interrupt(int) {

@@ -33,10 +33,10 @@ struct CertificateModel {
     /// What 1 N s at contact c does to group g at most, groups x contact_count: how far a gap falls within a
     /// frame [m/(N s)] where the model has a response table, else the speed it gets [1/kg].
     std::vector<double> push;
-    double push_growth = 1;  ///< factor of all pushes after retuning
-    /// The same as a speed [1/kg] where `push` is a path: of retuned strings, which have no response table.
-    /// Empty with more than contacts_with_own_bounds contacts.
+    /// `push` as a speed [1/kg] beside a `push` that is a path: for retuned strings, which have no response
+    /// table. Empty without a table, and with more than contacts_with_own_bounds contacts.
     std::vector<double> push_speed;
+    double push_growth = 1;  ///< factor of all pushes after retuning
     /// A gap of contact c falls by at most reach[c] sqrt(H) below -b_c, at any step, while the string's
     /// energy is below H [m/J^(1/2)]. Empty if it is not known.
     std::vector<double> reach;

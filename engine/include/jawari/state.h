@@ -101,12 +101,12 @@ struct KickState {
 /// What a modal force of 1 N m^(-1/2) on each of the modes that forces reach does to the bounds in a unit of
 /// time: sums over the low modes and over the others (docs/certificate.md, section 4).
 struct UnitKick {
-    std::size_t modes = 0;  ///< that the sums cover; 0: not known since the last refresh
-    double low_speed = 0;
-    double low_detour = 0;
-    double high_speed = 0;
-    double high_extent = 0;
-    double high_detour = 0;
+    std::size_t modes = 0;   ///< that the sums cover; 0: not known since the last refresh
+    double low_speed = 0;    ///< sum kick over the low modes [1/(kg m)]
+    double low_detour = 0;   ///< sum kick detour [s/(kg m)]
+    double high_speed = 0;   ///< of the others likewise [1/(kg m)]
+    double high_extent = 0;  ///< sum kick extent [s/(kg m)]
+    double high_detour = 0;  ///< [s/(kg m)]
 };
 
 /// Bounds that hold until an impulse, a force or an outside change of state (docs/certificate.md).
