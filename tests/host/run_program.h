@@ -29,10 +29,10 @@ struct Ran {
 struct RunOptions {
     std::uint64_t largest_file_bytes = 0;  ///< 0: no bound. A full disk, as far as write() can tell.
     int signal = 0;                        ///< sent to the program ...
-    std::function<bool()>
-        signal_when;               ///< ... once this holds (asked again and again, until the program ends)
-    unsigned signal_after_ms = 0;  ///< ... and after this time
-    unsigned signal_after_us = 0;  ///< and this
+    /// ... once this holds (asked again and again, until the program ends)
+    std::function<bool()> signal_when = {};
+    unsigned signal_after_ms = 0;         ///< ... and after this time
+    unsigned signal_after_us = 0;         ///< and this
     std::uint64_t most_memory_bytes = 0;  ///< 0: no bound; of the address space
     bool as_nobody = false;               ///< without the rights of root, if the test has them
 };
