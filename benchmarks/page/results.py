@@ -26,7 +26,8 @@ def work_precision():
             row[key] = float(row[key])
         row["own_error"] = float(row["error_to_own_finest"])
         # Both theta schemes are rivals of their own.
-        row["rival"] = row["parameter"] if row["method"] == "theta" else row["method"]
+        row["rival"] = row["parameter"].split()[0] if row["method"] == "theta" else row["method"]
+        row["fewer_modes"] = "N=" in row["parameter"]
     return rows
 
 

@@ -35,6 +35,12 @@ def percent(value):
     return f"{100 * value:.2g} %" if value < 0.995 else f"{100 * value:.0f} %"
 
 
+def ours_text(run):
+    """How one of our runs was made."""
+    modes = f", {run['unknowns']} modes" if run["fewer_modes"] else ""
+    return f"`{run['law']}`, {rate_text(run['rate_hz'])}{modes}"
+
+
 def bars():
     return json.loads((results.ROOT / "benchmarks/reference/references.json").read_text())
 
@@ -51,7 +57,7 @@ def targets():
     for error, limit in ((0.01, 0.03), (0.001, 0.15)):
         run = results.cheapest(rows, error)
         cost = run["cost"] if run else math.inf
-        how = f"`{run['law']}`, {run['start']} start, {rate_text(run['rate_hz'])}, error {percent(run['error'])}" if run else "none"
+        how = f"{ours_text(run)}, {run['start']} start, error {percent(run['error'])}" if run else "none"
         table.append([percent(error), how, figure(cost), limit, "met" if cost <= limit else f"missed by {cost / limit:.1f}x"])
     return markdown(["error", "cheapest run", "CPU s per s", "asked for", ""], table)
 
@@ -74,7 +80,7 @@ def cost_at(level, measure="error"):
     for scene in results.SCENES:
         for e in results.RESTITUTIONS:
             ours = results.cheapest(results.select(rows, scene, e, "exact"), level, measure)
-            cells = [scene, f"{e:g}", f"**{figure(ours['cost'])}** ({ours['law']}, {rate_text(ours['rate_hz'])})" if ours else "not reached"]
+            cells = [scene, f"{e:g}", f"**{figure(ours['cost'])}** ({ours_text(ours)})" if ours else "not reached"]
             for rival in results.RIVALS:
                 best = results.cheapest(results.select(rows, scene, e, rival), level, measure)
                 cells.append(figure(best["cost"]) if best else "")
@@ -115,7 +121,7 @@ def lost_runs(measure="error"):
             errors = sorted(theirs[measure] for _, theirs, _ in found)
             e, theirs, ours = min((item for item in found if item[1][measure] <= errors[len(errors) // 2]),
                                   key=lambda item: item[1]["cost"] / item[2]["cost"] if item[2] else 0)
-            mine = f"{figure(ours['cost'])} (`{ours['law']}`, {rate_text(ours['rate_hz'])})" if ours else "not reached"
+            mine = f"{figure(ours['cost'])} ({ours_text(ours)})" if ours else "not reached"
             table.append([scene, name, ", ".join(f"{value:g}" for value in sorted({item[0] for item in found})),
                           len(found), below, f"{show(errors[0])} to {show(errors[-1])}",
                           f"{show(theirs[measure])}: {figure(theirs['cost'])} ({theirs['parameter'] or theirs['law']}, {rate_text(theirs['rate_hz'])})",

@@ -20,9 +20,12 @@ STRONG_BASELINE = {("bass", 0.9): {15680.0: 2.05, 125440.0: 14}}
 def draw_ours(axis, rows, measure):
     for law in results.LAWS:
         for start, line in (("exact", "-"), ("backward", ":")):
-            runs = sorted((r for r in rows if r["law"] == law and r["start"] == start), key=lambda r: r["rate_hz"])
+            runs = sorted((r for r in rows if r["law"] == law and r["start"] == start and not r["fewer_modes"]),
+                          key=lambda r: r["rate_hz"])
             axis.plot([r["cost"] for r in runs], [r[measure] for r in runs], line, marker="o" if start == "exact" else None,
                       color=style.OURS[law], label=f"Jawari, {law}" if start == "exact" else None)
+    fewer = results.frontier([r for r in rows if r["fewer_modes"]], measure)
+    axis.plot([r["cost"] for r in fewer], [r[measure] for r in fewer], "-.", color="#08306b", label="Jawari, fewer modes (best runs)")
 
 
 def draw_rivals(axis, rows, scene, restitution, measure):

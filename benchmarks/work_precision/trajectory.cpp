@@ -19,6 +19,7 @@ struct Options {
     std::string scene = "lab/bass", method = "exact", law = "signorini", start = "exact", out;
     double restitution = -1, contact_rate_hz = 2007040, theta = 0.5, duration_s = 0;
     double relative_stiffness = 1, exponent = 1;
+    std::size_t modes = 0;  // 0: all that the scene has
     Repetition repetition;
 };
 
@@ -40,6 +41,8 @@ SceneDescription described(const Options& options, double& duration_s) {
     }
     for (StringDescription& string : description.strings) {
         string.initial.start = options.start == "exact" ? Start::Exact : Start::Backward;
+        if (auto* physical = std::get_if<PhysicalModes>(&string.modes); physical && options.modes > 0)
+            physical->count = std::min(physical->count, options.modes);
         if (options.restitution < 0) continue;
         for (ContactDescription& contact : string.contacts) contact.restitution = options.restitution;
     }
@@ -86,6 +89,7 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0.0, 1.0));
     app.add_option("--start", options.start)->check(CLI::IsMember({"exact", "backward"}));
     app.add_option("--contact-rate", options.contact_rate_hz, "Hz")->check(CLI::PositiveNumber);
+    app.add_option("--modes", options.modes, "of each string at most; default: the scene's");
     app.add_option("--theta", options.theta)->check(CLI::Range(0.5, 1.0));
     app.add_option("--stiffness", options.relative_stiffness,
                    "penalty and quadratised rivals: relative stiffness")
