@@ -12,6 +12,7 @@
 
 #include "contact.h"
 #include "pivot_table_inl.h"
+#include "short_motion_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace jawari::kernels::HWY_NAMESPACE {
@@ -194,10 +195,22 @@ struct SpreadImpulses {
     }
 };
 
+/// The table of responses that holds for the struck contacts.
+const double* responses_to(const StringModel& model, StringState& state, const Struck& struck) {
+    if (!model.step_response.empty()) return model.step_response.data();
+    const ShortFrameState& frame = state.short_frame;
+    for (std::size_t i = 0; i < struck.count; ++i) {
+        if (frame.response_known[struck.list[i]] == 0) find_response(model, state, struck.list[i]);
+    }
+    return frame.step_response.data();
+}
+
 void spread_impulses(const StringModel& model, StringState& state, std::size_t n, const Struck& struck) {
+    if (n + 1 == model.steps_per_frame) return;
     const std::size_t stride = model.contact_stride;
+    const double* table = responses_to(model, state, struck);
     for (std::size_t later = n + 1; later < model.steps_per_frame; ++later) {
-        const double* responses = model.step_response.data() + (later - n) * model.contact_count * stride;
+        const double* responses = table + (later - n) * model.contact_count * stride;
         for_contacts(stride, SpreadImpulses{struck, state.contact.impulse.data(), responses, stride,
                                             state.short_frame.rates.data() + later * stride});
     }

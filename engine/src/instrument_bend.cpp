@@ -8,6 +8,7 @@
 #include "certificate.h"
 #include "jawari/energy.h"
 #include "retune_kernel.h"
+#include "short_frame.h"
 
 namespace jawari {
 namespace {
@@ -50,6 +51,7 @@ void adopt(const StringModel& base, StringModel& bent) {
     bent.contact_count = base.contact_count;
     bent.contact_stride = base.contact_stride;
     bent.contact_rows = base.contact_rows;
+    bent.contact_columns = base.contact_columns;
     bent.contact_height = base.contact_height;
     bent.contact_restitution = base.contact_restitution;
     bent.contact_position = base.contact_position;
@@ -103,8 +105,8 @@ void begin(const StoppedStringModel& stopped, Voice& voice) {
     std::copy(stopped.backward_q.begin(), stopped.backward_q.end(), bend.backward_q.begin());
     std::copy(stopped.backward_u.begin(), stopped.backward_u.end(), bend.backward_u.begin());
     bend.active = true;
-    // There is no response table at this tension: near frames are stepped, with all contacts if it is not
-    // known how impulses push those that are not near.
+    // There is no response table at this tension: where frames are not short, near ones are stepped, with all
+    // contacts if it is not known how impulses push those that are not near.
     voice.string.skipping.near = !bend.model.certificate.push.empty();
 }
 
@@ -167,6 +169,7 @@ void set_bend(const StoppedStringModel& stopped, Voice& voice, double semitones,
     if (std::isfinite(work_J)) work.bends_J += work_J;
     voice.touches.outdated = true;
     forget_bounds(string);
+    forget_responses(string);
 }
 
 void forget_bend(Voice& voice) JAWARI_REALTIME {

@@ -20,7 +20,6 @@ InstrumentStringState make_string(const InstrumentModel& model, std::size_t s) {
     const StringSizes sizes = largest_sizes(model, s);
     const std::size_t voices = model.strings[s].stopped.size() == 1 ? 1 : voices_per_string;
     for (std::size_t v = 0; v < voices; ++v) string.voices.push_back(make_voice(sizes));
-    string.scratch.assign(sizes.stride, 0.0);
     return string;
 }
 

@@ -49,24 +49,15 @@ void damp_sounding(const InstrumentModel& model, InstrumentState& state, std::si
     lay_damping_hand(model, string_of(model, state, s), voice, release_velocity, time);
 }
 
-/// Keeps a motion free for the next note: fades the quietest damped one if none is idle or on its way there.
-void make_room(const InstrumentStringModel& model, InstrumentStringState& string,
-               InstrumentCounters& counters) {
+/// A string has one shape at a time: what it did before a note fades as the note begins, as under the finger
+/// or plectrum that takes hold of it.
+void fade_damped(InstrumentStringState& string, InstrumentCounters& counters) {
     if (string.voices.size() == 1) return;
-    Voice* quietest = nullptr;
-    double least = std::numeric_limits<double>::infinity();
     for (Voice& voice : string.voices) {
-        if (voice.phase == VoicePhase::Idle || voice.fading) return;
-        if (voice.phase != VoicePhase::Damped) continue;
-        const double energy = voice_energy(model, voice);
-        if (energy < least) {
-            least = energy;
-            quietest = &voice;
-        }
+        if (voice.phase != VoicePhase::Damped || voice.fading) continue;
+        fade_voice(voice);
+        counters.faded_voices += 1;
     }
-    if (quietest == nullptr) return;
-    fade_voice(*quietest);
-    counters.faded_voices += 1;
 }
 
 /// What the stopping hand and the palm do at the beginning of a note.
@@ -122,13 +113,12 @@ void begin_stroke(const InstrumentModel& model, InstrumentState& state, std::siz
                   const Stroke& stroke) {
     start_from_rest(model, state, s, v, stroke);
     excite(model, state, s, state.strings[s].voices[v], stroke);
-    make_room(string_of(model, state, s), state.strings[s], state.counters);
+    fade_damped(state.strings[s], state.counters);
 }
 
-void wait_for_motion(const InstrumentModel& model, InstrumentState& state, std::size_t s,
-                     const Stroke& stroke) {
+void wait_for_motion(InstrumentState& state, std::size_t s, const Stroke& stroke) {
     InstrumentStringState& string = state.strings[s];
-    make_room(string_of(model, state, s), string, state.counters);
+    fade_damped(string, state.counters);
     if (string.pending.active) state.counters.ignored_notes += 1;
     string.pending = {.active = true, .delay = 0, .stroke = stroke};
     state.waiting = true;
@@ -148,7 +138,7 @@ Voice& cross_over(const InstrumentModel& model, InstrumentState& state, std::siz
     string.busy += 1;
     state.busy = true;
     Voice& voice = string.voices[v];
-    carry_over(string_of(model, state, s), old, voice, string.scratch, state.work);
+    carry_over(string_of(model, state, s), old, voice, state.work);
     fade_voice(old);
     voice.rise_frame = 0;
     voice.age = 1;
@@ -194,7 +184,7 @@ void stroke_string(const InstrumentModel& model, InstrumentState& state, std::si
     damp_sounding(model, state, s, true, 0.5);
     const std::size_t v = idle_voice(string);
     if (v == no_voice) {
-        wait_for_motion(model, state, s, stroke);
+        wait_for_motion(state, s, stroke);
     } else {
         begin_stroke(model, state, s, v, stroke);
     }
@@ -218,14 +208,14 @@ void continue_string(const InstrumentModel& model, InstrumentState& state, std::
                      parameter(state, stroke.channel, ParameterId::PluckPosition));
         lift_touch(voice.touches, TouchSlot::Finger);  // nothing lies on the string before
     }
-    make_room(string_of(model, state, s), string, state.counters);
+    fade_damped(string, state.counters);
 }
 
 void arrive(const InstrumentModel& model, InstrumentState& state, std::size_t s) JAWARI_REALTIME {
     InstrumentStringState& string = state.strings[s];
     const std::size_t v = idle_voice(string);
     if (v == no_voice) {  // stays at the slide's end until there is one
-        make_room(string_of(model, state, s), string, state.counters);
+        fade_damped(string, state.counters);
         return;
     }
     const Voice& voice = string.voices[string.sounding];
@@ -233,7 +223,7 @@ void arrive(const InstrumentModel& model, InstrumentState& state, std::size_t s)
     stroke.fret = voice.slide.fret;
     stroke.channel = voice.channel;
     cross_over(model, state, s, v, stroke);
-    make_room(string_of(model, state, s), string, state.counters);
+    fade_damped(string, state.counters);
 }
 
 void release_string(const InstrumentModel& model, InstrumentState& state, std::size_t s,

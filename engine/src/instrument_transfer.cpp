@@ -1,7 +1,9 @@
 #include "instrument_transfer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "instrument_voice.h"
@@ -22,56 +24,85 @@ struct Lengths {
     std::size_t from_modes = 0, to_modes = 0;
 };
 
-/// Integral over the new length of (u(d) - u(L') d/L') phi'_k with u = sum_j a_j sin(beta_j d):
-///     -(N'/alpha_k) sum_j a_j sin(beta_j L') beta_j^2/(beta_j^2 - alpha_k^2),     N' = sqrt(2/L').
-/// `a` holds a_j.
-void project_onto_shorter(const Lengths& lengths, const double* a, double* out) {
-    const double scale = std::sqrt(2 / lengths.to_m);
-    for (std::size_t k = 1; k <= lengths.to_modes; ++k) {
-        const double alpha = static_cast<double>(k) * pi / lengths.to_m;
-        double sum = 0;
-        for (std::size_t j = 1; j <= lengths.from_modes; ++j) {
+/// Shape and true velocity of a motion: sum_j a_j sin(beta_j d), beta_j = j pi/L.
+struct Motion {
+    std::array<double, transfer_modes> shape{}, speed{};
+};
+
+/// sum_j w_j/(beta_j^2 - alpha^2) of both.
+struct Sums {
+    double shape = 0, speed = 0;
+};
+
+/// All j but `left_out`, counted from 1. Four partial sums each, so that the divisions go side by side.
+Sums sums_at(const Lengths& lengths, const Motion& weights, double alpha, std::size_t left_out) {
+    constexpr std::size_t abreast = 4;
+    static_assert(transfer_modes % abreast == 0);
+    const double infinity = std::numeric_limits<double>::infinity();
+    std::array<double, abreast> shape{}, speed{};
+    for (std::size_t first = 0; first < lengths.from_modes; first += abreast) {  // weights beyond are zero
+        for (std::size_t i = 0; i < abreast; ++i) {
+            const std::size_t j = first + i + 1;
             const double beta = static_cast<double>(j) * pi / lengths.from_m;
-            const double apart = beta * beta - alpha * alpha;
-            const double end = std::sin(beta * lengths.to_m);
-            // Where both sines have the same length the product's integral is L'/2.
-            sum += std::abs(apart) > 1e-9 * alpha * alpha ? -a[j - 1] * end * beta * beta / (alpha * apart)
-                                                          : sign_of(k) * a[j - 1] * lengths.to_m / 2;
+            const double share = 1 / (j == left_out ? infinity : beta * beta - alpha * alpha);
+            shape[i] += weights.shape[first + i] * share;
+            speed[i] += weights.speed[first + i] * share;
         }
-        out[k - 1] += scale * sum;
     }
+    return {shape[0] + shape[1] + shape[2] + shape[3], speed[0] + speed[1] + speed[2] + speed[3]};
 }
 
-/// Integral over the old length of u phi'_k: N' (-1)^(k+1) sin(alpha_k L) sum_j a_j (-1)^j beta_j/(alpha_k^2
-/// - beta_j^2).
-void project_onto_longer(const Lengths& lengths, const double* a, double* out) {
-    const double scale = std::sqrt(2 / lengths.to_m);
-    for (std::size_t k = 1; k <= lengths.to_modes; ++k) {
-        const double alpha = static_cast<double>(k) * pi / lengths.to_m;
-        const double end = std::sin(alpha * lengths.from_m);
-        double sum = 0;
-        for (std::size_t j = 1; j <= lengths.from_modes; ++j) {
-            const double beta = static_cast<double>(j) * pi / lengths.from_m;
-            const double apart = alpha * alpha - beta * beta;
-            sum += std::abs(apart) > 1e-9 * alpha * alpha ? -sign_of(j) * a[j - 1] * end * beta / apart
-                                                          : a[j - 1] * lengths.from_m / 2;
-        }
-        out[k - 1] += scale * sign_of(k) * sum;
-    }
+/// The old partial, of those that take part or higher, whose sine has the length of alpha's; 0: none.
+std::size_t same_sine(const Lengths& lengths, double alpha) {
+    const double j = std::round(alpha * lengths.from_m / pi);
+    const double beta = j * pi / lengths.from_m;
+    const bool is_same = std::abs(beta * beta - alpha * alpha) <= 1e-9 * alpha * alpha;
+    return is_same ? static_cast<std::size_t>(j) : 0;
 }
 
-void project(const Lengths& lengths, const double* a, double* out) {
-    if (lengths.to_m > lengths.from_m) {
-        project_onto_longer(lengths, a, out);
-    } else {
-        project_onto_shorter(lengths, a, out);
+/// a_j <- the weights of the sums: onto a shorter length a_j beta_j^2 sin(beta_j L'), onto a longer one
+/// (-1)^j a_j beta_j.
+Motion weights_of(const Lengths& lengths, const Motion& motion) {
+    Motion weights;
+    for (std::size_t j = 1; j <= lengths.from_modes; ++j) {
+        const double beta = static_cast<double>(j) * pi / lengths.from_m;
+        const double weight =
+            lengths.to_m > lengths.from_m ? sign_of(j) * beta : beta * beta * std::sin(beta * lengths.to_m);
+        weights.shape[j - 1] = weight * motion.shape[j - 1];
+        weights.speed[j - 1] = weight * motion.speed[j - 1];
     }
+    return weights;
+}
+
+/// The projection onto phi'_k of the new length L', with N' = sqrt(2/L'). Onto a shorter length it is that of
+/// u(d) - u(L') d/L':
+///     -(N'/alpha_k) sum_j a_j sin(beta_j L') beta_j^2/(beta_j^2 - alpha_k^2),
+/// onto a longer one N' (-1)^k sin(alpha_k L) sum_j (-1)^j a_j beta_j/(beta_j^2 - alpha_k^2). Where both
+/// sines have the same length the product's integral is half the shorter length.
+Motion project(const Lengths& lengths, const Motion& motion) {
+    const Motion weights = weights_of(lengths, motion);
+    const bool longer = lengths.to_m > lengths.from_m;
+    const double scale = std::sqrt(2 / lengths.to_m);
+    Motion projected;
+    for (std::size_t k = 1; k <= lengths.to_modes; ++k) {
+        const double alpha = static_cast<double>(k) * pi / lengths.to_m;
+        const std::size_t same = same_sine(lengths, alpha);
+        const Sums sums = sums_at(lengths, weights, alpha, same);
+        const double factor = longer ? sign_of(k) * std::sin(alpha * lengths.from_m) : -1 / alpha;
+        projected.shape[k - 1] = scale * factor * sums.shape;
+        projected.speed[k - 1] = scale * factor * sums.speed;
+        if (same == 0 || same > lengths.from_modes) continue;
+        const double half = scale * sign_of(k) * std::min(lengths.from_m, lengths.to_m) / 2;
+        projected.shape[k - 1] += half * motion.shape[same - 1];
+        projected.speed[k - 1] += half * motion.speed[same - 1];
+    }
+    return projected;
 }
 
 }  // namespace
 
 void carry_over(const InstrumentStringModel& string, const Voice& from, Voice& to,
-                AlignedVector<double>& scratch, PlayerWork& work) JAWARI_REALTIME {
+                PlayerWork& work) JAWARI_REALTIME {
     const StringModel& source = voice_model(string, from);
     const StoppedStringModel& stop = string.stopped[to.fret];
     const double* backward_q =
@@ -83,26 +114,19 @@ void carry_over(const InstrumentStringModel& string, const Voice& from, Voice& t
     const double scale = std::sqrt(2 / source.length_m);
     const double before = energy(stop.string, to.string);
     // The backward velocity of the new motion is made of its shape and true velocity, each projected.
-    AlignedVector<double>& projected = to.touches.moved;
-    std::fill(projected.begin(), projected.end(), 0.0);
-    for (std::size_t j = 0; j < lengths.from_modes; ++j) {
-        const double q = from.string.displacement[j] - source.rest_displacement[j];
-        scratch[j] = scale * sign_of(j + 1) * q;
-    }
-    project(lengths, scratch.data(), projected.data());
-    for (std::size_t k = 0; k < lengths.to_modes; ++k) {
-        to.string.displacement[k] += projected[k];
-        to.string.velocity[k] = stop.backward_q[k] * projected[k];
-    }
-    std::fill(projected.begin(), projected.end(), 0.0);
+    Motion motion;
     for (std::size_t j = 0; j < lengths.from_modes; ++j) {
         const double q = from.string.displacement[j] - source.rest_displacement[j];
         const double u = (from.string.velocity[j] - backward_q[j] * q) / backward_u[j];
-        scratch[j] = scale * sign_of(j + 1) * u;
+        motion.shape[j] = scale * sign_of(j + 1) * q;
+        motion.speed[j] = scale * sign_of(j + 1) * u;
     }
-    project(lengths, scratch.data(), projected.data());
-    for (std::size_t k = 0; k < lengths.to_modes; ++k)
-        to.string.velocity[k] += stop.backward_u[k] * projected[k];
+    const Motion projected = project(lengths, motion);
+    for (std::size_t k = 0; k < lengths.to_modes; ++k) {
+        to.string.displacement[k] += projected.shape[k];
+        to.string.velocity[k] =
+            stop.backward_q[k] * projected.shape[k] + stop.backward_u[k] * projected.speed[k];
+    }
     notice_change(stop.string, to.string);
     const double gained = energy(stop.string, to.string) - before - energy(source, from.string);
     if (std::isfinite(gained)) work.transfers_J += gained;

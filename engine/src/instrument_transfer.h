@@ -12,8 +12,8 @@ inline constexpr std::size_t transfer_modes = 256;
 
 /// Gives `to`, which is at rest at its fret, the shape and true velocity of `from`, seen from the bridge. At
 /// a new end inside the old length the shape is made zero there by taking out its linear ramp; beyond an old
-/// end the string is at rest. `scratch`: over the largest stride.
+/// end the string is at rest.
 void carry_over(const InstrumentStringModel& string, const Voice& from, Voice& to,
-                AlignedVector<double>& scratch, PlayerWork& work) JAWARI_REALTIME;
+                PlayerWork& work) JAWARI_REALTIME;
 
 }  // namespace jawari

@@ -64,6 +64,11 @@ bool solve_short_frame(const StringModel& model, StringState& state) JAWARI_REAL
     return finite;
 }
 
+void forget_responses(StringState& state) JAWARI_REALTIME {
+    std::vector<std::uint8_t>& known = state.short_frame.response_known;
+    std::fill(known.begin(), known.end(), std::uint8_t{0});
+}
+
 void note_short_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
     CertificateState& bounds = state.certificate;
     for (std::size_t c = 0; c < model.contact_count; ++c) {

@@ -25,6 +25,9 @@ void set_short_frames(StringModel& model);
 /// certificate.struck <- whether impulses happened. Returns false if the state is not finite.
 bool solve_short_frame(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
+/// The string's tension has changed: responses that were found at the old one no longer hold.
+void forget_responses(StringState& state) JAWARI_REALTIME;
+
 /// What the last short frame knows of all gaps goes to the certificate, for frames that follow.
 void note_short_frame(const StringModel& model, StringState& state) JAWARI_REALTIME;
 

@@ -97,9 +97,16 @@ bool move_modes(const StringModel& model, StringState& state) {
     return hn::GetLane(hn::SumOfLanes(d, probe)) == 0;
 }
 
+/// Where rates of all gaps go: `step_stride` apart from step to step.
+struct Rates {
+    double* out;
+    std::size_t step_stride;
+};
+
 /// rates <- S v for `vectors` vectors of contacts from c on and `steps` steps from n on
 template <std::size_t vectors, std::size_t steps>
-HWY_INLINE void sum_rates(const StringModel& model, StringState& state, std::size_t c, std::size_t n) {
+HWY_INLINE void sum_rates(const StringModel& model, const StringState& state, Rates rates, std::size_t c,
+                          std::size_t n) {
     const Lanes d;
     const std::size_t lanes = hn::Lanes(d);
     const std::size_t stride = model.contact_stride;
@@ -118,29 +125,64 @@ HWY_INLINE void sum_rates(const StringModel& model, StringState& state, std::siz
             for (std::size_t i = 0; i < vectors; ++i) sum[j][i] = hn::MulAdd(shape[i], velocity, sum[j][i]);
         }
     }
-    double* rates = state.short_frame.rates.data() + n * stride + c;
+    double* out = rates.out + n * rates.step_stride + c;
     for (std::size_t j = 0; j < steps; ++j) {
-        for (std::size_t i = 0; i < vectors; ++i) hn::Store(sum[j][i], d, rates + j * stride + i * lanes);
+        for (std::size_t i = 0; i < vectors; ++i)
+            hn::Store(sum[j][i], d, out + j * rates.step_stride + i * lanes);
     }
 }
 
+/// The rates of the steps from `first` on.
 struct SumRates {
     const StringModel& model;
-    StringState& state;
+    const StringState& state;
+    Rates rates;
+    std::size_t first;
 
     template <std::size_t vectors>
     HWY_INLINE void run(std::size_t c) const {
-        std::size_t n = 0;
+        std::size_t n = first;
         for (; n + block_steps <= model.steps_per_frame; n += block_steps)
-            sum_rates<vectors, block_steps>(model, state, c, n);
-        for (; n < model.steps_per_frame; ++n) sum_rates<vectors, 1>(model, state, c, n);
+            sum_rates<vectors, block_steps>(model, state, rates, c, n);
+        for (; n < model.steps_per_frame; ++n) sum_rates<vectors, 1>(model, state, rates, c, n);
     }
 };
 
 bool run_freely(const StringModel& model, StringState& state) {
     const bool finite = is_excited(state) ? move_modes<true>(model, state) : move_modes<false>(model, state);
-    for_blocks(model.contact_stride, SumRates{model, state});
+    for_blocks(model.contact_stride,
+               SumRates{model, state, {state.short_frame.rates.data(), model.contact_stride}, 0});
     return finite;
+}
+
+/// The velocities of all modes in the steps after an impulse of 1 N s.
+void respond_to_unit_impulse(const StringModel& model, StringState& state, std::size_t struck) {
+    const Lanes d;
+    const Vec h = hn::Set(d, model.step_s);
+    const double* row = model.contact_rows.data() + struck * model.stride;
+    for (std::size_t k = 0; k < model.stride; k += hn::Lanes(d)) {
+        const Vec e = hn::Add(hn::Load(d, model.carry.data() + k), hn::Load(d, model.change.data() + k));
+        const Vec r = hn::Load(d, model.restoring.data() + k);
+        Vec v = hn::Mul(hn::Load(d, model.mobility.data() + k), hn::Load(d, row + k));
+        Vec q = hn::Mul(h, v);
+        double* out = state.short_frame.velocities.data() + model.stride + k;
+        for (std::size_t n = 1; n < model.steps_per_frame; ++n, out += model.stride) {
+            v = hn::MulAdd(r, q, hn::Mul(e, v));
+            q = hn::MulAdd(h, v, q);
+            hn::Store(v, d, out);
+        }
+    }
+}
+
+void find_response(const StringModel& model, StringState& state, std::size_t struck) {
+    respond_to_unit_impulse(model, state, struck);
+    const std::size_t stride = model.contact_stride;
+    const Rates rates{state.short_frame.step_response.data() + struck * stride, model.contact_count * stride};
+    const std::size_t active_modes = state.active_modes;
+    state.active_modes = model.stride;
+    for_blocks(stride, SumRates{model, state, rates, 1});
+    state.active_modes = active_modes;
+    state.short_frame.response_known[struck] = 1;
 }
 
 // ------------------------------------------------------------------------------------------ impulse response
@@ -230,10 +272,15 @@ HWY_AFTER_NAMESPACE();
 namespace jawari::kernels {
 
 HWY_EXPORT(run_freely);
+HWY_EXPORT(find_response);
 HWY_EXPORT(add_response);
 
 bool run_freely(const StringModel& model, StringState& state) noexcept {
     return HWY_DYNAMIC_DISPATCH(run_freely)(model, state);
+}
+
+void find_response(const StringModel& model, StringState& state, std::size_t struck) noexcept {
+    HWY_DYNAMIC_DISPATCH(find_response)(model, state, struck);
 }
 
 bool add_response(const StringModel& model, StringState& state) noexcept {

@@ -91,6 +91,8 @@ ShortFrameState make_short_frame_state(const StringSizes& sizes) {
     frame.rates.assign(sizes.short_steps * contacts, 0.0);
     frame.impulses.assign(sizes.short_steps * contacts, 0.0);
     frame.struck.assign(contacts, 0);
+    frame.step_response.assign(sizes.short_steps * sizes.contacts * contacts, 0.0);
+    frame.response_known.assign(sizes.contacts, 0);
     frame.table.values.assign(contacts * contacts, 0.0);
     for (auto* array : {&frame.table.sign, &frame.table.scale, &frame.table.solution})
         array->assign(contacts, 0.0);

@@ -39,7 +39,7 @@ def steel():
         "name": "Steel-string guitar",
         "comment": ["A dreadnought with light phosphor-bronze strings and a hard plectrum; the action is low enough to buzz at velocity 127.",
                     "Articulation 1 is the plectrum, 2 the finger."],
-        **quality(240000, 24000), "studio": quality(2000000, 80000), "provenance": BODY,
+        **quality(192000, 20000), "studio": quality(2000000, 80000), "provenance": BODY,
         "frets": fret_board(length, 20, 0.00055, 0.0022, 0.00015),
         "exciters": [plectrum(0.13, 0.0025, 0.0003), finger("finger", from_bridge(0.15), 0.008, 0.006, 0.0009, 0.0025, 1.4, 0.8)],
         "hand": player(), "body": body.STEEL_GUITAR,

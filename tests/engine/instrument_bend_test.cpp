@@ -12,6 +12,7 @@
 #include "jawari/energy.h"
 #include "jawari/render.h"
 #include "jawari/step_coefficients.h"
+#include "short_frame.h"
 
 namespace jawari {
 namespace {
@@ -238,6 +239,30 @@ TEST(Bend, NearContactsAloneAreStruckAsAmongAll) {
     ASSERT_EQ(open.certificate.push_speed.size(), open.contact_count * open.contact_count);
     std::uint64_t impulses = 0, flown = 0;
     for (const double speed : {0.2, 0.5, 1.0, 2.0}) {
+        const BentPluck skipped = bent_pluck(model, skip_all, speed);
+        const BentPluck uniform = bent_pluck(model, skip_nothing, speed);
+        EXPECT_EQ(skipped.counters.impulses, uniform.counters.impulses) << speed;
+        for (std::size_t i = 0; i < uniform.displacement.size(); ++i)
+            ASSERT_NEAR(skipped.displacement[i], uniform.displacement[i], 1e-10 * speed / open.omega[0])
+                << speed << " frame " << i / 8;
+        impulses += uniform.counters.impulses;
+        flown += skipped.counters.flown_frames;
+    }
+    EXPECT_GT(impulses, 1000U);
+    EXPECT_GT(flown, 1000U);
+}
+
+/// Frames of four steps over a few frets, whose responses are found anew at each tension.
+TEST(Bend, ShortFramesAgreeWithUniformStepping) {
+    InstrumentDescription bass = test::bass_instrument();
+    bass.strings.resize(1);
+    bass.quality.contact_rate_min_hz = 192000;
+    const InstrumentModel model = compile_instrument(bass, 48000).value();
+    const StringModel& open = model.strings[0].stopped[0].string;
+    ASSERT_TRUE(has_short_frames(open));
+    ASSERT_GT(open.steps_per_frame, 2U);
+    std::uint64_t impulses = 0, flown = 0;
+    for (const double speed : {1.0, 2.0, 4.0, 8.0}) {
         const BentPluck skipped = bent_pluck(model, skip_all, speed);
         const BentPluck uniform = bent_pluck(model, skip_nothing, speed);
         EXPECT_EQ(skipped.counters.impulses, uniform.counters.impulses) << speed;

@@ -179,8 +179,22 @@ TEST(InstrumentRender, ChangingTheNoteOnAStringDoesNotClick) {
     EXPECT_LE(sharpest(changed, change - 240, change + 480), 2 * apart);
 }
 
+TEST(InstrumentRender, AStringDoesOneThingAtATime) {
+    InstrumentState state = make_instrument_state(bass_model());
+    const auto busy = [&] {
+        std::size_t count = 0;
+        for (const InstrumentStringState& string : state.strings) count += string.busy;
+        return count;
+    };
+    play(state, {note_on(0, 28, 0.2), note_on(4800, 30, 0.2)}, 4801);
+    EXPECT_EQ(busy(), 2U);  // the first fades
+    play(state, {}, 240);
+    EXPECT_EQ(busy(), 1U);
+    EXPECT_EQ(state.counters.faded_voices, 1U);
+}
+
 TEST(InstrumentRender, TakingVoicesAwayDoesNotClick) {
-    // Five notes in 40 ms on one string: more than it has motions. The first two fade nothing.
+    // Five notes in 40 ms on one string.
     std::vector<InstrumentEvent> events;
     for (std::size_t i = 0; i < 5; ++i) events.push_back(note_on(480 * i, 28 + static_cast<int>(i), 0.2));
     const double apart = sharpest(play({events.begin(), events.begin() + 2}, 9600), 1, 9500);

@@ -47,9 +47,8 @@ void expect_projection(std::size_t from_fret, std::size_t to_fret) {
         u[k] = std::sin(static_cast<double>(5 * k)) / static_cast<double>(k + 1);
         from.string.velocity[k] = a.backward_q[k] * from.string.displacement[k] + a.backward_u[k] * u[k];
     }
-    AlignedVector<double> scratch(string.sizes.stride);
     PlayerWork work;
-    carry_over(string, from, to, scratch, work);
+    carry_over(string, from, to, work);
     const double shorter = std::min(a.string.length_m, b.string.length_m);
     const double end_q = shape_at(a.string, from.string.displacement, shorter);
     const double end_u = shape_at(a.string, u, shorter);

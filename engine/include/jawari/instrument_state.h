@@ -114,7 +114,6 @@ struct InstrumentStringState {
     std::size_t sounding = no_voice;
     std::size_t busy = 0;  ///< voices that are not idle
     PendingStroke pending;
-    AlignedVector<double> scratch;  ///< over modes, of legato
     std::size_t rung = 0;           ///< quality at which it is played; set by change_rung()
 };
 

@@ -194,6 +194,10 @@ struct ShortFrameState {
     AlignedVector<double> impulses;     ///< lambda at each step, steps x contact_stride
     std::vector<std::uint32_t> struck;  ///< contacts with impulses in the frame; `struck_count` are valid
     std::size_t struck_count = 0;
+    /// What StringModel::step_response is to a model that has none because its tension changes: rows of the
+    /// contacts in `response_known` hold until forget_responses(), short_frame.h.
+    AlignedVector<double> step_response;
+    std::vector<std::uint8_t> response_known;
     std::uint64_t gaps_at = 0;  ///< frame at whose start contact.gap and gap_before hold for all contacts
     PivotTable table;
 };
