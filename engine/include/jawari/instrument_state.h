@@ -114,7 +114,7 @@ struct InstrumentStringState {
     std::size_t sounding = no_voice;
     std::size_t busy = 0;  ///< voices that are not idle
     PendingStroke pending;
-    std::size_t rung = 0;           ///< quality at which it is played; set by change_rung()
+    std::size_t rung = 0;  ///< quality at which it is played; set by change_rung()
 };
 
 struct ChannelState {
