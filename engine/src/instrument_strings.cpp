@@ -1,7 +1,6 @@
 #include "instrument_strings.h"
 
 #include <cmath>
-#include <limits>
 
 #include "instrument_bend.h"
 #include "instrument_control.h"

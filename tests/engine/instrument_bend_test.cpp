@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "bass_instrument.h"
@@ -216,6 +217,24 @@ BentPluck bent_pluck(const InstrumentModel& model, const Skipping& skipping, dou
     return played;
 }
 
+/// Bent plucks at several speeds agree with uniform stepping, and both strike and fly.
+void expect_skipping_changes_nothing(const InstrumentModel& model, std::initializer_list<double> speeds) {
+    const double omega = model.strings[0].stopped[0].string.omega[0];
+    std::uint64_t impulses = 0, flown = 0;
+    for (const double speed : speeds) {
+        const BentPluck skipped = bent_pluck(model, skip_all, speed);
+        const BentPluck uniform = bent_pluck(model, skip_nothing, speed);
+        EXPECT_EQ(skipped.counters.impulses, uniform.counters.impulses) << speed;
+        for (std::size_t i = 0; i < uniform.displacement.size(); ++i)
+            ASSERT_NEAR(skipped.displacement[i], uniform.displacement[i], 1e-10 * speed / omega)
+                << speed << " frame " << i / 8;
+        impulses += uniform.counters.impulses;
+        flown += skipped.counters.flown_frames;
+    }
+    EXPECT_GT(impulses, 1000U);
+    EXPECT_GT(flown, 1000U);
+}
+
 /// Frets below and a board of points close above: what strikes one side is pushed to the other within a
 /// frame.
 InstrumentModel string_between_obstacles() {
@@ -239,19 +258,7 @@ TEST(Bend, NearContactsAloneAreStruckAsAmongAll) {
     ASSERT_GT(open.contact_count, 10U);
     ASSERT_FALSE(has_short_frames(open));
     ASSERT_EQ(open.certificate.push_speed.size(), open.contact_count * open.contact_count);
-    std::uint64_t impulses = 0, flown = 0;
-    for (const double speed : {0.2, 0.5, 1.0, 2.0}) {
-        const BentPluck skipped = bent_pluck(model, skip_all, speed);
-        const BentPluck uniform = bent_pluck(model, skip_nothing, speed);
-        EXPECT_EQ(skipped.counters.impulses, uniform.counters.impulses) << speed;
-        for (std::size_t i = 0; i < uniform.displacement.size(); ++i)
-            ASSERT_NEAR(skipped.displacement[i], uniform.displacement[i], 1e-10 * speed / open.omega[0])
-                << speed << " frame " << i / 8;
-        impulses += uniform.counters.impulses;
-        flown += skipped.counters.flown_frames;
-    }
-    EXPECT_GT(impulses, 1000U);
-    EXPECT_GT(flown, 1000U);
+    expect_skipping_changes_nothing(model, {0.2, 0.5, 1.0, 2.0});
 }
 
 /// Frames of four steps over a few frets, whose responses are found anew at each tension.
@@ -263,19 +270,7 @@ TEST(Bend, ShortFramesAgreeWithUniformStepping) {
     const StringModel& open = model.strings[0].stopped[0].string;
     ASSERT_TRUE(has_short_frames(open));
     ASSERT_GT(open.steps_per_frame, 2U);
-    std::uint64_t impulses = 0, flown = 0;
-    for (const double speed : {1.0, 2.0, 4.0, 8.0}) {
-        const BentPluck skipped = bent_pluck(model, skip_all, speed);
-        const BentPluck uniform = bent_pluck(model, skip_nothing, speed);
-        EXPECT_EQ(skipped.counters.impulses, uniform.counters.impulses) << speed;
-        for (std::size_t i = 0; i < uniform.displacement.size(); ++i)
-            ASSERT_NEAR(skipped.displacement[i], uniform.displacement[i], 1e-10 * speed / open.omega[0])
-                << speed << " frame " << i / 8;
-        impulses += uniform.counters.impulses;
-        flown += skipped.counters.flown_frames;
-    }
-    EXPECT_GT(impulses, 1000U);
-    EXPECT_GT(flown, 1000U);
+    expect_skipping_changes_nothing(model, {1.0, 2.0, 4.0, 8.0});
 }
 
 /// What impulses do to the bounds of other contacts at the bent tension, from its definition.

@@ -41,8 +41,7 @@ double residual_work(const StringModel& model, double impulses_Ns, double residu
 
 double gap_rounding_share(const StringModel& model) {
     const double steps = static_cast<double>(model.steps_per_frame);
-    // Short frames carry gaps on through 64 frames of up to 16 steps, with two roundings in each.
-    return eps * (2048 + static_cast<double>(model.mode_count) + 2 * steps);
+    return eps * (1024 + static_cast<double>(model.mode_count) + 2 * steps);
 }
 
 double depth_of_law(ImpactLaw law, double restitution, double travel) {
