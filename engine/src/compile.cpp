@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "compile_skipping.h"
@@ -115,6 +116,19 @@ std::optional<Failure> set_contacts(StringModel& model, const StringDescription&
     return {};
 }
 
+/// A gap is the difference of S q and b, neither known to better than half a rounding unit.
+void set_gap_rounding(StringModel& model) {
+    double largest = 0;
+    for (std::size_t c = 0; c < model.contact_count; ++c) {
+        const double* row = model.contact_rows.data() + c * model.stride;
+        double size = std::abs(model.contact_height[c]);
+        for (std::size_t k = 0; k < model.mode_count; ++k)
+            size += std::abs(row[k] * model.initial_displacement[k]);
+        largest = std::max(largest, size);
+    }
+    model.gap_rounding_m = std::numeric_limits<double>::epsilon() / 2 * largest;
+}
+
 struct TrueState {
     AlignedVector<double> displacement;
     AlignedVector<double> velocity;
@@ -185,6 +199,7 @@ Result<StringModel> compile_string(const StringDescription& string, const SceneD
         return Failure{place + ".contacts", "obstacles from both sides",
                        "obstacles between which the string fits"};
     }
+    set_gap_rounding(model);
     set_probes(model, string);
     if (!coefficients_are_finite(model)) {
         return Failure{place + ".modes", "frequencies or losses",

@@ -18,6 +18,7 @@ ContactMoment moment_of(const StringModel& model, const ContactState& contact, s
     moment.restitution = model.contact_restitution[c];
     moment.theta = model.theta;
     moment.scheme = model.scheme;
+    moment.gap_rounding = model.gap_rounding_m;
     return moment;
 }
 

@@ -24,16 +24,22 @@ using Vec = hn::Vec<Lanes>;
 /// A solution whose residual is above this share of the worst violation is left to the general solver.
 constexpr double largest_relative_residual = 1e-9;
 
+/// min(0, y_before + rounding), impact_law.h
+HWY_INLINE Vec signorini_target(Lanes d, const ContactState& contact, Vec rounding, std::size_t c) {
+    return hn::Min(hn::Add(hn::Load(d, contact.gap_before.data() + c), rounding), hn::Zero(d));
+}
+
 /// gap_free and offset = gap_free - tau of the step; returns the lowest offset.
 HWY_INLINE double predict(const StringModel& model, StringState& state, std::size_t n) {
     const Lanes d;
     ContactState& contact = state.contact;
     const double* rates = state.short_frame.rates.data() + n * model.contact_stride;
     const Vec h = hn::Set(d, model.step_s);
+    const Vec rounding = hn::Set(d, model.gap_rounding_m);
     Vec lowest = hn::Zero(d);
     for (std::size_t c = 0; c < model.contact_stride; c += hn::Lanes(d)) {
         const Vec gap = hn::MulAdd(h, hn::Load(d, rates + c), hn::Load(d, contact.gap.data() + c));
-        const Vec target = hn::Min(hn::Load(d, contact.gap_before.data() + c), hn::Zero(d));
+        const Vec target = signorini_target(d, contact, rounding, c);
         const Vec offset = hn::Sub(gap, target);
         hn::Store(gap, d, contact.gap_free.data() + c);
         hn::Store(offset, d, contact.offset.data() + c);
@@ -221,10 +227,11 @@ void spread_impulses(const StringModel& model, StringState& state, std::size_t n
 template <bool struck>
 HWY_INLINE Vec accept(const StringModel& model, ContactState& contact, Vec lowest) {
     const Lanes d;
+    const Vec rounding = hn::Set(d, model.gap_rounding_m);
     for (std::size_t c = 0; c < model.contact_stride; c += hn::Lanes(d)) {
         Vec gap = hn::Load(d, contact.gap_free.data() + c);
         if constexpr (struck) {
-            const Vec target = hn::Min(hn::Load(d, contact.gap_before.data() + c), hn::Zero(d));
+            const Vec target = signorini_target(d, contact, rounding, c);
             gap = hn::Add(target, hn::Load(d, contact.residual.data() + c));
         }
         hn::Store(hn::Load(d, contact.gap.data() + c), d, contact.gap_before.data() + c);

@@ -16,6 +16,7 @@ struct ContactMoment {
     double restitution = 0;
     double theta = 1;
     Scheme scheme = Scheme::Exact;
+    double gap_rounding = 0;  ///< depth that is rounding, StringModel::gap_rounding_m [m]
 };
 
 /// Newton and passive restitution act on contacts whose gap, carried on for half a step, is closed.
@@ -40,10 +41,11 @@ inline double target_gap(ImpactLaw law, const ContactMoment& c) {
         case ImpactLaw::Passive:
             return c.gap <= c.gap_before ? c.gap - c.restitution * (c.gap - c.gap_before) : c.gap_before;
         case ImpactLaw::Signorini:
-            return std::min(
-                0.0, c.gap_before);  // 0, but a contact left inside by a truncated solve must not be shot out
+            // 0, but a contact left inside by a truncated solve must not be shot out. Rounding is no reason to
+            // stay inside: a string at rest on an obstacle would sink a little further each time it is unlucky.
+            return std::min(0.0, c.gap_before + c.gap_rounding);
         case ImpactLaw::PaoliSchatzman:
-            return std::min(-c.restitution * c.gap_before, c.gap_before);
+            return std::min(-c.restitution * c.gap_before, c.gap_before + c.gap_rounding);
     }
     return 0;
 }

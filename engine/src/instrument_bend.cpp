@@ -53,6 +53,7 @@ void adopt(const StringModel& base, StringModel& bent) {
     bent.contact_rows = base.contact_rows;
     bent.contact_columns = base.contact_columns;
     bent.contact_height = base.contact_height;
+    bent.gap_rounding_m = base.gap_rounding_m;
     bent.contact_restitution = base.contact_restitution;
     bent.contact_position = base.contact_position;
     bent.contact_side = base.contact_side;

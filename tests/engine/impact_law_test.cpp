@@ -66,6 +66,20 @@ TEST(ImpactLaw, PaoliSchatzmanReflectsThePositionOneStepEarlier) {
     EXPECT_EQ(target_gap(ImpactLaw::PaoliSchatzman, moment(1, -2, 0.5)), -2);
 }
 
+TEST(ImpactLaw, DepthThatIsRoundingIsNotKept) {
+    for (const ImpactLaw law : {ImpactLaw::Signorini, ImpactLaw::PaoliSchatzman}) {
+        ContactMoment c = moment(-0.1, -0.25, 0);
+        c.gap_rounding = 0.5;
+        EXPECT_EQ(target_gap(law, c), 0);
+        // What is deeper comes out step by step, so that the work of each is below rounding.
+        c.gap_before = -3;
+        EXPECT_EQ(target_gap(law, c), -2.5);
+        // A gap that was open has the same target as without.
+        c.gap_before = 2;
+        EXPECT_EQ(target_gap(law, c), 0);
+    }
+}
+
 TEST(ImpactLaw, EveryPassiveLawsTargetIsAtMostTheGapBefore) {
     for (const double gap : {-3.0, -1.0, 0.0, 0.5, 2.0}) {
         for (const double before : {-4.0, -1.0, -0.5, 0.0, 1.0, 5.0}) {

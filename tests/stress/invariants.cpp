@@ -27,6 +27,10 @@ double step_rounding(const StringModel& model) {
     return eps * operations(model) * rounding_share(model);
 }
 
+double force_rounding(const StringModel& model, double work_J) {
+    return eps * operations(model) * work_J;
+}
+
 double kick_rounding(const StringModel& model, double kicks, double highest_J) {
     return eps * operations(model) * 2 * kicks * std::sqrt(highest_J);
 }

@@ -16,6 +16,10 @@ double operations(const StringModel& model);
 /// What rounding may change H by in one step, as a share of H; rounding_share() in reach.h.
 double step_rounding(const StringModel& model);
 
+/// What forces may add to that [J]: q is rounded by eps |q|, and the force works along what it has moved by.
+/// `work_J`: sum |F_k q_k|.
+double force_rounding(const StringModel& model, double work_J);
+
 /// What impulses may add to that [J]: each is rounded when it is applied, which changes H by 2 sqrt(H) times
 /// its kick (reach.h). Counts where impulses nearly cancel: obstacles that pinch the string.
 double kick_rounding(const StringModel& model, double kicks, double highest_J);

@@ -12,6 +12,9 @@
 
 namespace jawari::stress {
 
+/// Beyond this the squares of what is computed from H overflow.
+constexpr double largest_energy_J = 1e100;
+
 /// Impulses on a string, added up over its contacts.
 struct Strikes {
     double impulses_Ns = 0;
@@ -34,13 +37,17 @@ class StringWatch {
 
   private:
     void raise_bounds(const StringState& state);
+    /// An energy whose squares overflow, of a string whose energy may grow without limit.
+    [[nodiscard]] bool has_burst() const;
     void check_energy(const StringState& state, Judge& judge) const;
     void check_gaps(const StringState& state, Judge& judge) const;
     void check_counters(const StringState& state, Judge& judge) const;
-    void check_outputs(std::span<const std::span<const double>> outputs, Judge& judge) const;
+    void check_outputs(const StringState& state, std::span<const std::span<const double>> outputs, Judge& judge) const;
     [[nodiscard]] double depth_bound(std::size_t contact) const;
     [[nodiscard]] double gap_rounding(std::size_t contact) const;
     [[nodiscard]] double lag_work(const StringState& state) const;
+    [[nodiscard]] double lag_work_size(const StringState& state) const;
+    [[nodiscard]] double rise_of_block_allowed(const StringState& state) const;
 
     const StringModel& model_;
     std::string name_;
@@ -58,8 +65,9 @@ class StringWatch {
     // of the block
     double before_ = 0;                  ///< H - F w
     double force_arm_ = 0;               ///< |F w| <= this sqrt(H)
+    double force_work_size_ = 0;         ///< what F w is a sum of, at the block's start
     std::uint64_t impulses_before_ = 0;  ///< and of the frame
-    std::uint64_t block_impulses_ = 0, frame_before_ = 0;
+    std::uint64_t block_impulses_ = 0, roundings_before_ = 0;
 };
 
 }  // namespace jawari::stress
