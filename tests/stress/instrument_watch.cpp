@@ -127,10 +127,12 @@ void InstrumentWatch::check_energy(const InstrumentState& state, double frames, 
     const Energies now = energies_of(state);
     const double work = total(state.work) - total(work_before_);
     // A hand-over leaves the old motion to fade, with the energy that its work counts as taken: at most all
-    // there is, and so on with the next.
+    // there is, and so on with the next. Bends may work on the old motion and the new one in opposite senses;
+    // then the sum of their work says little, but the old motion still sounds.
     const double hand_overs = static_cast<double>(state.counters.legato_notes - hand_overs_before_);
-    const double left_behind =
+    const double taken =
         std::expm1(hand_overs * std::log(2.0)) * (before_.largest + moved_since(work_before_, state.work));
+    const double left_behind = hand_overs > 0 ? std::max(taken, now.largest) : 0.0;
     const double impulses = static_cast<double>(contact_counters(state).impulses - impulses_before_);
     const double allowed = (frames + 2) * (before_.rounding + now.rounding) +
                            impulses * (before_.impulse + now.impulse) +
