@@ -18,7 +18,7 @@ ContactMoment moment_of(const StringModel& model, const ContactState& contact, s
     moment.restitution = model.contact_restitution[c];
     moment.theta = model.theta;
     moment.scheme = model.scheme;
-    moment.gap_rounding = model.gap_rounding_m;
+    moment.excused = excused_depth(model, contact);
     return moment;
 }
 
@@ -152,6 +152,7 @@ void solve_impulses(const StringModel& model, StringState& state) JAWARI_REALTIM
     const LcpOutcome outcome = solve_lcp(compliance_of(model), contact.offset, candidates, contact.impulse,
                                          contact.residual, state.lcp);
     counters.solves += 1;
+    contact.left_open = outcome.finished ? outcome.residual : 0.0;
     if (outcome.finished) {
         counters.worst_residual_m = std::max(counters.worst_residual_m, outcome.residual);
     } else {

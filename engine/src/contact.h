@@ -10,6 +10,12 @@
 
 namespace jawari {
 
+/// Depth that is nobody's but the numbers' [m]: rounding, and what the last solve left.
+/// ContactMoment::excused.
+inline double excused_depth(const StringModel& model, const ContactState& contact) {
+    return model.gap_rounding_m + contact.left_open;
+}
+
 /// gap <- S q - b and gap_before <- the same one step earlier, for the near contacts.
 void place_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME;
 

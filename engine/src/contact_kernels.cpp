@@ -24,22 +24,21 @@ using Vec = hn::Vec<Lanes>;
 /// A solution whose residual is above this share of the worst violation is left to the general solver.
 constexpr double largest_relative_residual = 1e-9;
 
-/// min(0, y_before + rounding), impact_law.h
-HWY_INLINE Vec signorini_target(Lanes d, const ContactState& contact, Vec rounding, std::size_t c) {
-    return hn::Min(hn::Add(hn::Load(d, contact.gap_before.data() + c), rounding), hn::Zero(d));
+/// min(0, y_before + excused), impact_law.h
+HWY_INLINE Vec signorini_target(Lanes d, const ContactState& contact, Vec excused, std::size_t c) {
+    return hn::Min(hn::Add(hn::Load(d, contact.gap_before.data() + c), excused), hn::Zero(d));
 }
 
 /// gap_free and offset = gap_free - tau of the step; returns the lowest offset.
-HWY_INLINE double predict(const StringModel& model, StringState& state, std::size_t n) {
+HWY_INLINE double predict(const StringModel& model, StringState& state, std::size_t n, Vec excused) {
     const Lanes d;
     ContactState& contact = state.contact;
     const double* rates = state.short_frame.rates.data() + n * model.contact_stride;
     const Vec h = hn::Set(d, model.step_s);
-    const Vec rounding = hn::Set(d, model.gap_rounding_m);
     Vec lowest = hn::Zero(d);
     for (std::size_t c = 0; c < model.contact_stride; c += hn::Lanes(d)) {
         const Vec gap = hn::MulAdd(h, hn::Load(d, rates + c), hn::Load(d, contact.gap.data() + c));
-        const Vec target = signorini_target(d, contact, rounding, c);
+        const Vec target = signorini_target(d, contact, excused, c);
         const Vec offset = hn::Sub(gap, target);
         hn::Store(gap, d, contact.gap_free.data() + c);
         hn::Store(offset, d, contact.offset.data() + c);
@@ -123,6 +122,7 @@ bool solve_by_pivots(const StringModel& model, StringState& state, double lowest
         if (j == none) {
             const double residual = settle_impulses(model, state, tolerance);
             state.counters.worst_residual_m = std::max(state.counters.worst_residual_m, residual);
+            state.contact.left_open = residual;
             return residual <= -largest_relative_residual * lowest;
         }
         const double least = dependent_pivot * model.compliance[j * stride + j];
@@ -225,13 +225,12 @@ void spread_impulses(const StringModel& model, StringState& state, std::size_t n
 /// gap_before <- gap, gap <- the gaps at the step's end, tau + residual with impulses and y_free without; the
 /// lowest gap so far goes on into `lowest`.
 template <bool struck>
-HWY_INLINE Vec accept(const StringModel& model, ContactState& contact, Vec lowest) {
+HWY_INLINE Vec accept(const StringModel& model, ContactState& contact, Vec excused, Vec lowest) {
     const Lanes d;
-    const Vec rounding = hn::Set(d, model.gap_rounding_m);
     for (std::size_t c = 0; c < model.contact_stride; c += hn::Lanes(d)) {
         Vec gap = hn::Load(d, contact.gap_free.data() + c);
         if constexpr (struck) {
-            const Vec target = signorini_target(d, contact, rounding, c);
+            const Vec target = signorini_target(d, contact, excused, c);
             gap = hn::Add(target, hn::Load(d, contact.residual.data() + c));
         }
         hn::Store(hn::Load(d, contact.gap.data() + c), d, contact.gap_before.data() + c);
@@ -247,19 +246,20 @@ bool solve_steps(const StringModel& model, StringState& state) {
     Vec lowest = hn::Zero(d);
     bool any = false;
     for (std::size_t n = 0; n < model.steps_per_frame; ++n) {
-        const double violation = predict(model, state, n);
+        const Vec excused = hn::Set(d, excused_depth(model, contact));
+        const double violation = predict(model, state, n, excused);
         if (violation < 0) {
             const Struck struck = find_impulses(model, state, violation);
             keep_impulses(model, state, n);
             spread_impulses(model, state, n, struck);
-            lowest = accept<true>(model, contact, lowest);
+            lowest = accept<true>(model, contact, excused, lowest);
             any = true;
         } else {
             std::fill_n(contact.impulse.begin(), model.contact_stride, 0.0);
             std::fill_n(
                 state.short_frame.impulses.begin() + static_cast<std::ptrdiff_t>(n * model.contact_stride),
                 model.contact_stride, 0.0);
-            lowest = accept<false>(model, contact, lowest);
+            lowest = accept<false>(model, contact, excused, lowest);
         }
     }
     state.short_frame.struck_count = 0;

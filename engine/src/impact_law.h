@@ -16,7 +16,7 @@ struct ContactMoment {
     double restitution = 0;
     double theta = 1;
     Scheme scheme = Scheme::Exact;
-    double gap_rounding = 0;  ///< depth that is rounding, StringModel::gap_rounding_m [m]
+    double excused = 0;  ///< depth that is the numbers' doing, excused_depth() in contact.h [m]
 };
 
 /// Newton and passive restitution act on contacts whose gap, carried on for half a step, is closed.
@@ -41,11 +41,12 @@ inline double target_gap(ImpactLaw law, const ContactMoment& c) {
         case ImpactLaw::Passive:
             return c.gap <= c.gap_before ? c.gap - c.restitution * (c.gap - c.gap_before) : c.gap_before;
         case ImpactLaw::Signorini:
-            // 0, but a contact left inside by a truncated solve must not be shot out. Rounding is no reason to
-            // stay inside: a string at rest on an obstacle would sink a little further each time it is unlucky.
-            return std::min(0.0, c.gap_before + c.gap_rounding);
+            // 0, but a contact left inside by a truncated solve must not be shot out. Rounding is no reason
+            // to stay inside: a string at rest on an obstacle would sink a little further each time it is
+            // unlucky.
+            return std::min(0.0, c.gap_before + c.excused);
         case ImpactLaw::PaoliSchatzman:
-            return std::min(-c.restitution * c.gap_before, c.gap_before + c.gap_rounding);
+            return std::min(-c.restitution * c.gap_before, c.gap_before + c.excused);
     }
     return 0;
 }

@@ -66,6 +66,7 @@ void save_start(StringState& state) {
     near.gap = state.contact.gap;
     near.gap_before = state.contact.gap_before;
     near.impulse = state.contact.impulse;
+    near.left_open = state.contact.left_open;
     near.counters = state.counters;
 }
 
@@ -74,6 +75,7 @@ void restore_start(StringState& state) {
     state.contact.gap = near.gap;
     state.contact.gap_before = near.gap_before;
     state.contact.impulse = near.impulse;
+    state.contact.left_open = near.left_open;
     state.counters = near.counters;
     std::fill(state.contact.frame_impulse.begin(), state.contact.frame_impulse.end(), 0.0);
 }

@@ -194,6 +194,7 @@ void put_to_rest(const StringModel& model, StringState& state) noexcept {
 }
 
 void notice_change(const StringModel& model, StringState& state) noexcept {
+    state.contact.left_open = 0;
     state.lcp.factored = nullptr;
     state.short_frame.table.of = nullptr;
     state.active_modes = model.stride;

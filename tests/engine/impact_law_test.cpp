@@ -66,10 +66,10 @@ TEST(ImpactLaw, PaoliSchatzmanReflectsThePositionOneStepEarlier) {
     EXPECT_EQ(target_gap(ImpactLaw::PaoliSchatzman, moment(1, -2, 0.5)), -2);
 }
 
-TEST(ImpactLaw, DepthThatIsRoundingIsNotKept) {
+TEST(ImpactLaw, DepthThatIsTheNumbersDoingIsNotKept) {
     for (const ImpactLaw law : {ImpactLaw::Signorini, ImpactLaw::PaoliSchatzman}) {
         ContactMoment c = moment(-0.1, -0.25, 0);
-        c.gap_rounding = 0.5;
+        c.excused = 0.5;
         EXPECT_EQ(target_gap(law, c), 0);
         // What is deeper comes out step by step, so that the work of each is below rounding.
         c.gap_before = -3;

@@ -27,8 +27,12 @@ double step_rounding(const StringModel& model) {
     return eps * operations(model) * rounding_share(model);
 }
 
+double sum_rounding(const StringModel& model, double size) {
+    return eps * operations(model) * size;
+}
+
 double force_rounding(const StringModel& model, double work_J) {
-    return eps * operations(model) * work_J;
+    return sum_rounding(model, work_J);
 }
 
 double kick_rounding(const StringModel& model, double kicks, double highest_J) {

@@ -16,6 +16,9 @@ double operations(const StringModel& model);
 /// What rounding may change H by in one step, as a share of H; rounding_share() in reach.h.
 double step_rounding(const StringModel& model);
 
+/// Rounding of a sum over the modes, such as S q, whose result is at most `size`.
+double sum_rounding(const StringModel& model, double size);
+
 /// What forces may add to that [J]: q is rounded by eps |q|, and the force works along what it has moved by.
 /// `work_J`: sum |F_k q_k|.
 double force_rounding(const StringModel& model, double work_J);

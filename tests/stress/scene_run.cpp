@@ -75,7 +75,8 @@ void play_checked(const Stage& stage, Report& report, SceneState& state, Sound& 
         }
         report.blocks += 1;
         report.frames += block.frames;
-        for (const StringWatch& watch : watches) report.exploded |= !(watch.highest_energy() <= largest_energy_J);
+        for (const StringWatch& watch : watches)
+            report.exploded |= !(watch.highest_energy() <= largest_energy_J);
     }
 }
 

@@ -20,6 +20,13 @@ double dot(const StringModel& model, const double* row, const AlignedVector<doub
     return sum;
 }
 
+/// How far an impulse of 1 N s on the row moves it in a step: the diagonal of the compliance.
+double answer_of(const StringModel& model, std::span<const double> row) {
+    double sum = 0;
+    for (std::size_t k = 0; k < model.mode_count; ++k) sum += row[k] * model.mobility[k] * row[k];
+    return model.step_s * model.theta * sum;
+}
+
 double lag_of(const StringModel& model) {
     return model.scheme == Scheme::Exact ? model.step_s / 2 : 0.0;
 }
@@ -57,6 +64,7 @@ StringWatch::StringWatch(const StringModel& model, const StringState& start, std
         const auto row = contact_row(model, c);
         contacts_.push_back(reach_of(model, row));
         kicks_.push_back(kick_of(model, row));
+        largest_answer_ = std::max(largest_answer_, answer_of(model, row));
         longest_extent_ = std::max(longest_extent_, contacts_.back().extent);
         const double gap = dot(model, row.data(), start.displacement) - model.contact_height[c];
         const double gap_before = gap - model.step_s * dot(model, row.data(), start.velocity);
@@ -122,6 +130,7 @@ void StringWatch::note_frame(const StringState& state) {
     }
     strongest_.impulses_Ns = std::max(strongest_.impulses_Ns, frame.impulses_Ns);
     strongest_.kicks = std::max(strongest_.kicks, frame.kicks);
+    all_impulses_Ns_ += frame.impulses_Ns;
     of_block_.impulses_Ns += frame.impulses_Ns;
     of_block_.kicks += frame.kicks;
 }
@@ -189,10 +198,22 @@ double StringWatch::gap_rounding(std::size_t contact) const {
     return gap_rounding_share(model_) * size;
 }
 
-double StringWatch::depth_bound(std::size_t contact) const {
+/// Each frame that is stepped sums its gaps afresh, and the law lifts what lies too deep by gap_rounding_m a
+/// step, which may be less than the rounding of a string that is pushed hard, or that obstacles pinch: their
+/// impulses nearly cancel.
+double StringWatch::sinking(const StringState& state, std::size_t contact) const {
+    const double size = bound_of(contacts_[contact].extent, highest_) + highest_obstacle_;
+    const double lift = static_cast<double>(model_.steps_per_frame) * model_.gap_rounding_m;
+    const Counters& counters = state.counters;
+    const std::uint64_t stepped = state.frame - counters.flown_frames - counters.asleep_frames;
+    return static_cast<double>(stepped) * std::max(0.0, sum_rounding(model_, size) - lift) +
+           sum_rounding(model_, largest_answer_ * all_impulses_Ns_);
+}
+
+double StringWatch::depth_bound(const StringState& state, std::size_t contact) const {
     const double travel = model_.step_s * bound_of(contacts_[contact].speed, highest_) + rise_;
     return std::max(start_depth_, depth_of_law(model_.law, model_.contact_restitution[contact], travel)) +
-           1e-9 * travel + gap_rounding(contact);
+           1e-9 * travel + gap_rounding(contact) + sinking(state, contact);
 }
 
 void StringWatch::check_gaps(const StringState& state, Judge& judge) const {
@@ -200,7 +221,7 @@ void StringWatch::check_gaps(const StringState& state, Judge& judge) const {
     if (!proven || model_.contact_count == 0) return;
     double deepest_allowed = 0;
     for (std::size_t c = 0; c < model_.contact_count; ++c) {
-        const double allowed = depth_bound(c);
+        const double allowed = depth_bound(state, c);
         deepest_allowed = std::max(deepest_allowed, allowed);
         const double gap =
             dot(model_, contact_row(model_, c).data(), state.displacement) - state.contact.height[c];
@@ -221,7 +242,8 @@ void StringWatch::check_counters(const StringState& state, Judge& judge) const {
     check_residual(judge, state.counters.worst_residual_m, 2 * travel + rise_ + kick_, rounding, name_);
 }
 
-void StringWatch::check_outputs(const StringState& state, std::span<const std::span<const double>> outputs, Judge& judge) const {
+void StringWatch::check_outputs(const StringState& state, std::span<const std::span<const double>> outputs,
+                                Judge& judge) const {
     // H itself may have risen by as much since the block began.
     const double energy_J = highest_ + rise_of_block_allowed(state);
     for (std::size_t p = 0; p < outputs.size(); ++p) {

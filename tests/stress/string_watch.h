@@ -42,8 +42,10 @@ class StringWatch {
     void check_energy(const StringState& state, Judge& judge) const;
     void check_gaps(const StringState& state, Judge& judge) const;
     void check_counters(const StringState& state, Judge& judge) const;
-    void check_outputs(const StringState& state, std::span<const std::span<const double>> outputs, Judge& judge) const;
-    [[nodiscard]] double depth_bound(std::size_t contact) const;
+    void check_outputs(const StringState& state, std::span<const std::span<const double>> outputs,
+                       Judge& judge) const;
+    [[nodiscard]] double depth_bound(const StringState& state, std::size_t contact) const;
+    [[nodiscard]] double sinking(const StringState& state, std::size_t contact) const;
     [[nodiscard]] double gap_rounding(std::size_t contact) const;
     [[nodiscard]] double lag_work(const StringState& state) const;
     [[nodiscard]] double lag_work_size(const StringState& state) const;
@@ -55,7 +57,9 @@ class StringWatch {
     std::vector<double> kicks_;     ///< kick_of() of the contacts
     double step_rounding_ = 0;      ///< share of H
     double longest_extent_ = 0;     ///< of the contacts
+    double largest_answer_ = 0;     ///< of a gap to an impulse in the same step [m/(N s)]
     Strikes strongest_, of_block_;  ///< largest of a frame so far; sum over the block
+    double all_impulses_Ns_ = 0;    ///< sum over all frames
     bool may_be_unsolvable_ = false;
     double highest_ = 0;      ///< bound of H at all steps so far
     double start_depth_ = 0;  ///< largest -gap of the initial state and of the step before it

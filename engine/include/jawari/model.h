@@ -91,7 +91,7 @@ struct StringModel {
     std::size_t contact_stride = 0;  ///< padded(contact_count)
     SharedArray<double>
         contact_rows;  ///< S: +phi_k(x_c) from below, -phi_k(x_c) from above; contact_count x stride
-    std::vector<double> contact_height;       ///< b_c = +-h_c [m]: gap = S q - b
+    std::vector<double> contact_height;  ///< b_c = +-h_c [m]: gap = S q - b
     /// What rounding may leave of a gap [m], the largest over the contacts: `signorini` and `paoli-schatzman`
     /// lift a contact that lies inside by this much a step (docs/stability.md, "Gaps").
     double gap_rounding_m = 0;

@@ -73,6 +73,7 @@ struct ContactState {
     std::vector<std::uint32_t> candidates;  ///< scratch: indices; `candidate_count` are valid
     std::size_t candidate_count = 0;
     std::size_t moving_count = 0;
+    double left_open = 0;  ///< what the last solve left of a violation [m]; 0 if it was truncated
 };
 
 /// The low modes flown ahead, and what they show of contacts; see lookout.h.
@@ -169,6 +170,7 @@ struct NearState {
     AlignedVector<double> lanes;
     AlignedVector<double> displacement, velocity;    ///< over modes
     AlignedVector<double> gap, gap_before, impulse;  ///< at the frame's start
+    double left_open = 0;                            ///< the same
     std::vector<const double*> rows;
     Counters counters;
 };
