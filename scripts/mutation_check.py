@@ -3,9 +3,10 @@
 
 The places are tests/mutation/mutations.json: a text that occurs once in a file of the engine, and what is put in its stead.
 A copy of the tree is built in build/mutation with the engine's tests alone; nothing else is touched. Results so far are
-kept, so that a run that is interrupted goes on where it stopped; --again starts over.
+kept, so that a run that is interrupted goes on where it stopped; --again starts over. --current builds nothing: it only
+says whether every place is still there.
 
-usage: mutation_check.py [--jobs N] [--only TEXT] [--again]
+usage: mutation_check.py [--jobs N] [--only TEXT] [--again] [--current]
 """
 import argparse
 import json
@@ -56,6 +57,12 @@ def first_failure(seconds):
     return failed[0].split("]", 1)[1].split(",")[0].split("(")[0].strip() if failed else f"(exit {run.returncode})"
 
 
+def stale(mutations):
+    """Mutations whose text does not occur once, with how often it does."""
+    counts = [(m, (ROOT / m["file"]).read_text(encoding="utf-8").count(m["find"])) for m in mutations]
+    return [(m, count) for m, count in counts if count != 1]
+
+
 def key_of(mutation):
     return f"{mutation['file']}: {mutation['find']} -> {mutation['replace']}"
 
@@ -82,9 +89,15 @@ def main():
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--only", default="", help="mutations whose file or text contains this")
     parser.add_argument("--again", action="store_true", help="forget earlier results")
+    parser.add_argument("--current", action="store_true", help="only check that every place is still there")
     options = parser.parse_args()
     mutations = json.loads((ROOT / "tests/mutation/mutations.json").read_text(encoding="utf-8"))
     chosen = [m for m in mutations if options.only in key_of(m)]
+    if options.current:
+        found = stale(chosen)
+        for mutation, count in found:
+            print(f"{mutation['file']}: {mutation['find']}: occurs {count} times, not once")
+        sys.exit(bool(found))
     WORK.mkdir(parents=True, exist_ok=True)
     copy_tree()
     configure()

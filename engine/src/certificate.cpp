@@ -306,6 +306,7 @@ void forget_bounds(StringState& state) JAWARI_REALTIME {
     bounds.clear_limits_outdated = true;
     bounds.free_frames = 0;
     bounds.struck = false;
+    bounds.presumed_near = 0;
     state.short_frame.gaps_at = unknown_frame;
     std::fill(bounds.open_until.begin(), bounds.open_until.end(), -std::numeric_limits<double>::infinity());
     std::fill(bounds.frame_gap_at.begin(), bounds.frame_gap_at.end(), unknown_frame);

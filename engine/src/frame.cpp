@@ -17,6 +17,10 @@
 namespace jawari {
 namespace {
 
+/// Most frames under forces that are solved without looking whether contacts may close, after looks that were
+/// in vain: one costs two thirds of solving the frame.
+constexpr std::uint32_t longest_presumption = 7;
+
 bool may_skip(const StringModel& model, const StringState& state) {
     const Skipping& skipping = state.skipping;
     const bool any =
@@ -77,6 +81,20 @@ bool pass_short(const StringModel& model, StringState& state) {
 /// Whether frames with contact are solved as short ones.
 bool goes_short(const StringModel& model, const StringState& state) {
     return state.skipping.near && has_short_frames(model);
+}
+
+/// A look under forces has found contacts that may close: the next look is the later, the longer that lasts.
+void presume_near(StringState& state) {
+    CertificateState& bounds = state.certificate;
+    bounds.presumption = std::min(2 * bounds.presumption + 1, longest_presumption);
+    bounds.presumed_near = bounds.presumption;
+}
+
+/// The coming frame has contacts that may close without anybody having looked: nobody has added up what its
+/// forces do to the bounds.
+void presume_once(StringState& state) {
+    state.certificate.presumed_near -= 1;
+    state.certificate.outdated = true;
 }
 
 /// What a short frame before the coming one knows of the gaps.
@@ -140,7 +158,9 @@ bool advance_awake(const StringModel& model, StringState& state) {
     wake_excited_modes(state);
     const bool excited = is_excited(state);
     const bool plan_failed = !excited && state.skipping.flight;
-    if (goes_short(model, state) && (state.certificate.struck || plan_failed)) {
+    const bool presumed = excited && state.certificate.presumed_near > 0;
+    if (goes_short(model, state) && (state.certificate.struck || plan_failed || presumed)) {
+        if (presumed) presume_once(state);
         const bool finite = pass_short(model, state);
         meter_highest(model, state);
         return finite;
@@ -153,6 +173,7 @@ bool advance_awake(const StringModel& model, StringState& state) {
         bool finite = true;
         if (goes_short(model, state)) {
             finite = pass_short(model, state);
+            if (excited) presume_near(state);
         } else {
             pass_near(model, state);
             finite = is_finite(state);
@@ -160,6 +181,7 @@ bool advance_awake(const StringModel& model, StringState& state) {
         meter_highest(model, state);
         return finite;
     }
+    state.certificate.presumption = 0;
     pass_freely(model, state);
     advance_bounds(model, state);
     if (excited) meter_highest(model, state);

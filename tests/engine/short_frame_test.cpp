@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "agreement.h"
 #include "scenes.h"
 
@@ -78,6 +81,49 @@ TEST(ShortFrames, AgreeWhileForcesComeAndGo) {
         EXPECT_EQ(skipped.steps, uniform.steps);
         EXPECT_GT(skipped.near_frames + skipped.flown_frames, 0U);
     }
+}
+
+/// A string that touches a fret at 0.2 m under a weak force. In the frame after the first look, which is
+/// solved without looking, it is pulled off there and pushed towards a fret at 0.5 m, which it reaches two
+/// frames later.
+std::vector<double> struck_unlooked(const StringModel& model, const Skipping& skipping, Counters& counters) {
+    StringState state = make_string_state(model, Metering::Off, skipping);
+    const AlignedVector<double> touching = test::shape_row(model, 0.2), near = test::shape_row(model, 0.5);
+    std::vector<double> samples;
+    for (int n = 0; n < 40; ++n) {
+        clear_excitation(state);
+        const double strength = n == 1 ? 60 : 1e-6;
+        add_force(state, touching.data(), model.stride, strength);
+        add_force(state, near.data(), model.stride, -strength);
+        samples.push_back(probe_value(model, state, 0, 1.0 / 48000));
+        advance_frame(model, state);
+    }
+    counters = state.counters;
+    return samples;
+}
+
+TEST(ShortFrames, BoundsKnowWhatForcesDidInFramesThatWereNotLookedAt) {
+    SceneDescription scene;
+    scene.output_rate_hz = 48000;
+    scene.contact_rate_hz = 192000;
+    StringDescription string;
+    string.length_m = 0.7;
+    string.linear_density_kg_per_m = 0.005;
+    PhysicalModes modes;
+    modes.count = 60;
+    modes.tension_N = 80;
+    string.modes = modes;
+    string.contacts = {{0.2, 0, 0, Side::Below}, {0.5, -4e-4, 0, Side::Below}};
+    string.probes.push_back({Quantity::Displacement, 0.5, 0});
+    scene.strings.push_back(string);
+    const StringModel model = test::compiled_string(scene);
+    ASSERT_TRUE(has_short_frames(model));
+    Counters skipped, uniform;
+    const auto a = struck_unlooked(model, skip_all, skipped);
+    const auto b = struck_unlooked(model, skip_nothing, uniform);
+    EXPECT_LE(test::distance(a, b), 1e-10);
+    EXPECT_EQ(skipped.impulses, uniform.impulses);
+    EXPECT_LE(*std::min_element(b.begin(), b.end()), -3.9e-4);  // there
 }
 
 TEST(ShortFrames, GapsStayThoseOfTheModes) {

@@ -142,6 +142,8 @@ struct CertificateState {
     std::uint64_t age = 0;          ///< frames since the last refresh
     bool outdated = true;           ///< an impulse has raised the bounds
     bool struck = false;            ///< the last frame had impulses: the coming one most likely has
+    std::uint32_t presumed_near = 0;  ///< coming short frames under forces that are solved without looking
+    std::uint32_t presumption = 0;    ///< how many there were after the last look, 0 if it was in order
     bool direct = false;   ///< the coming frame looks at all gaps at both its ends; odometers stand still
     bool excited = false;  ///< the last refresh was made under excitation
     /// The string has too little energy to reach any contact for as long as only passive forces act.
