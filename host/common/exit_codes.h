@@ -10,6 +10,7 @@ enum class ExitCode : int {
     File = 4,          ///< a file cannot be read or written
     Internal = 5,      ///< a defect of the program, or out of memory
     Device = 6,        ///< an audio or MIDI device or its driver cannot be used, or was lost
+    HungUp = 129,      ///< the terminal is gone
     Interrupted = 130,
     Terminated = 143
 };

@@ -38,11 +38,18 @@ void handle(int signal, void (*handler)(int)) {
     sigaction(signal, &action, nullptr);
 }
 
+/// As nohup leaves it: the program is to outlive its terminal.
+bool is_ignored(int signal) {
+    struct sigaction action {};
+    return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
 }  // namespace
 
 void install_signal_handlers() {
     handle(SIGINT, on_signal);
     handle(SIGTERM, on_signal);
+    if (!is_ignored(SIGHUP)) handle(SIGHUP, on_signal);
     handle(SIGPIPE, SIG_IGN);
     handle(SIGXFSZ, SIG_IGN);
 }
@@ -53,6 +60,8 @@ MaybeError interruption() {
             return std::nullopt;
         case SIGTERM:
             return Error{ExitCode::Terminated, "jawari: terminated, nothing was written"};
+        case SIGHUP:
+            return Error{ExitCode::HungUp, "jawari: the terminal is gone, nothing was written"};
         default:
             return Error{ExitCode::Interrupted, "jawari: interrupted, nothing was written"};
     }

@@ -30,7 +30,7 @@ struct BlockTimes {
     std::uint64_t late = 0;      ///< blocks of all passes that took longer than they last, by the wall clock
 };
 
-/// Ends early with the interruption's error on SIGINT or SIGTERM.
+/// Ends early with the interruption's error on SIGINT, SIGTERM or SIGHUP.
 Outcome<BlockTimes> measure_blocks(const SharedInstrument& instrument, const BlockTimeSettings& settings);
 
 struct Distribution {

@@ -6,7 +6,7 @@
 
 namespace jawari::host {
 
-/// Plays until it is told to end. SIGINT and SIGTERM are ordinary ends.
+/// Plays until it is told to end. SIGINT, SIGTERM and SIGHUP are ordinary ends.
 MaybeError play(const PlayOptions& options);
 
 }  // namespace jawari::host

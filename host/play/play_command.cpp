@@ -40,7 +40,8 @@ std::string footer() {
            "  jawari play --audio alsa --audio-device USB --frames 64 --lock-memory\n"
            "  jawari play --no-shell --osc-port 7770 --preset guitar-12\n"
            "  printf 'note 40 100 2\\nquit\\n' | jawari play --preset bass-fretted\n\n"
-           "Exit codes: 0 ended by quit, the end of the commands, SIGINT or SIGTERM; 2 wrong command line;\n"
+           "Exit codes: 0 ended by quit, the end of the commands, SIGINT, SIGTERM or SIGHUP; 2 wrong command "
+           "line;\n"
            "3 invalid input file; 4 a file cannot be read or written; 5 internal error; 6 audio or MIDI "
            "device.";
 }

@@ -39,7 +39,7 @@ std::string footer() {
            "  jawari render - -o - --preset bass-fretted < song.mid | aplay\n\n"
            "Exit codes: 0 done; 2 wrong command line; 3 invalid input file; 4 a file cannot be read or "
            "written;\n"
-           "5 internal error; 130 interrupted; 143 terminated.";
+           "5 internal error; 129 hung up; 130 interrupted; 143 terminated.";
 }
 
 CLI::Validator tail() {

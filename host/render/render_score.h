@@ -38,7 +38,7 @@ struct ScoreStatistics {
 /// Frames that render_score() produces at most.
 std::uint64_t most_frames(const Score& score, const ScoreSettings& settings);
 
-/// Ends early with the interruption's error on SIGINT or SIGTERM.
+/// Ends early with the interruption's error on SIGINT, SIGTERM or SIGHUP.
 Outcome<ScoreStatistics> render_score(Ensemble& ensemble, const Score& score, const ScoreSettings& settings,
                                       const SoundSink& sink);
 

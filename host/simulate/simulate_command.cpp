@@ -41,7 +41,7 @@ std::string footer() {
            "  jawari simulate lab/one-contact --output-rate 48000 --contact-rate 2016000 --out one.wav\n"
            "  jawari simulate lab/fretless --duration 0.01 --out - > probes.csv\n\n"
            "Exit codes: 0 done; 2 wrong command line; 3 invalid scene; 4 a file cannot be read or written;\n"
-           "5 internal error; 130 interrupted; 143 terminated.";
+           "5 internal error; 129 hung up; 130 interrupted; 143 terminated.";
 }
 
 void add_settings(CLI::App& app, Overrides& overrides) {

@@ -222,7 +222,8 @@ TEST(RenderProgram, AnInterruptLeavesNothing) {
     append_event(track, 3600 * 1000, {28, 0});
     append_event(track, 0, end_of_track);
     const std::string midi = folder.write("long.mid", as_text(file_with_track(track, 500)));
-    for (const auto& [signal, exit_code] : {std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}}) {
+    for (const auto& [signal, exit_code] :
+         {std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}, std::pair{SIGHUP, 129}}) {
         const Ran ran = jawari({"render", midi, "--preset", "bass-fretted", "-o", folder.file("out.wav")},
                                {.signal = signal, .signal_after_ms = 400});
         EXPECT_EQ(ran.exit_code, exit_code) << ran.err;

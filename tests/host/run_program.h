@@ -47,6 +47,8 @@ inline void become(const std::vector<std::string>& command, const RunOptions& op
     const int err_file = open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     dup2(out_file, STDOUT_FILENO);
     dup2(err_file, STDERR_FILENO);
+    // Whoever runs the tests may ignore it (nohup), and the program would too.
+    std::signal(SIGHUP, SIG_DFL);
     if (options.largest_file_bytes > 0) {
         const rlimit bound{options.largest_file_bytes, options.largest_file_bytes};
         setrlimit(RLIMIT_FSIZE, &bound);

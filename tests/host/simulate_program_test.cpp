@@ -150,7 +150,8 @@ TEST(Simulate, AFullDiskLeavesNothingInAnyFormat) {
 }
 
 TEST(Simulate, InterruptsLeaveNothing) {
-    for (const auto& [signal, exit_code] : {std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}})
+    for (const auto& [signal, exit_code] :
+         {std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}, std::pair{SIGHUP, 129}})
         for (const char* name : {"out.csv", "out.h5", "out.wav"}) {
             const TemporaryFolder folder;
             const Ran ran = simulate({"lab/bass", "--duration", "1000", "--out", folder.file(name)},

@@ -108,9 +108,11 @@ class Bench:
 class Player:
     def __init__(self, bench, arguments, commands):
         self.bench = bench
+        # Whoever runs the tests may ignore SIGHUP (nohup), and the program would too.
         self.process = subprocess.Popen([bench.program, *arguments], env=bench.environment,
                                         stdin=subprocess.PIPE if commands else subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, text=True, bufsize=1)
+                                        stderr=subprocess.PIPE, text=True, bufsize=1,
+                                        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))
         bench.children.append(self.process)
         self.said = {self.process.stdout: "", self.process.stderr: ""}
 

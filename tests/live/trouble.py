@@ -81,7 +81,7 @@ def unplugged_keyboard(bench):
 
 def ended(bench):
     """A recording is whole after SIGTERM, and after SIGKILL up to its last second."""
-    for how, code in ((signal.SIGTERM, 0), (signal.SIGINT, 0), (signal.SIGKILL, -9)):
+    for how, code in ((signal.SIGTERM, 0), (signal.SIGINT, 0), (signal.SIGHUP, 0), (signal.SIGKILL, -9)):
         wav, midi = bench.path(f"{code}{how}.wav"), bench.path(f"{code}{how}.mid")
         player = bench.play("--preset", "bass-fretted", "--midi", "jack", "--record", wav, "--record-midi", midi)
         keyboard = bench.sender()
@@ -103,7 +103,7 @@ def ended(bench):
             assert "recorded" in player.err, player.err
     existing = bench.run("play", "--no-shell", "--record", wav)
     assert existing.returncode == 4 and os.path.basename(wav) in existing.stderr, existing
-    print("signals: SIGTERM and SIGINT leave whole files, SIGKILL all but the last second; nothing is overwritten")
+    print("signals: SIGTERM, SIGINT and SIGHUP leave whole files, SIGKILL all but the last second; nothing is overwritten")
 
 
 def unknown_devices(bench):
