@@ -1,5 +1,5 @@
-// SIGINT, SIGTERM and SIGHUP: the first one is noticed where work polls for it, the second one ends the program at
-// once. Either way no temporary file is left behind.
+// SIGINT, SIGTERM and SIGHUP: the first one is noticed where work polls for it, the second one ends the
+// program at once. Either way no temporary file is left behind.
 #pragma once
 
 #include <string>
