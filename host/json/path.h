@@ -5,10 +5,13 @@
 #include <string>
 #include <string_view>
 
+#include "common/text.h"
+
 namespace jawari::host::json {
 
+/// Keys come from files: a path stays on one line.
 inline std::string member(const std::string& parent, std::string_view key) {
-    return parent.empty() ? std::string(key) : parent + "." + std::string(key);
+    return parent.empty() ? printable(key) : parent + "." + printable(key);
 }
 
 inline std::string indexed(const std::string& parent, std::size_t index) {

@@ -27,6 +27,8 @@ const auto read_nothing = [](ObjectReader&) {};
 
 TEST(ObjectReader, UnknownKeysListTheAllowedOnes) {
     EXPECT_EQ(problem_of(R"({"a": 1, "c": 2})", read_nothing), "top.c: unknown key (allowed: a, b)");
+    EXPECT_EQ(problem_of(R"({"two\nlines": 1})", read_nothing),
+              "top.two\\x0alines: unknown key (allowed: a, b)");
     EXPECT_EQ(problem_of(R"({"a": 1, "comment": "anything"})", read_nothing), "none");
     EXPECT_EQ(problem_of("[1, 2]", read_nothing), "top: an array of 2 (allowed: an object)");
 }
