@@ -10,8 +10,7 @@
 
 namespace jawari {
 
-/// Depth that is nobody's but the numbers' [m]: rounding, and what the last solve left.
-/// ContactMoment::excused.
+/// Depth [m] that rounding and the residual of the last solve explain: ContactMoment::excused.
 inline double excused_depth(const StringModel& model, const ContactState& contact) {
     return model.gap_rounding_m + contact.left_open;
 }

@@ -16,7 +16,7 @@ struct ContactMoment {
     double restitution = 0;
     double theta = 1;
     Scheme scheme = Scheme::Exact;
-    double excused = 0;  ///< depth that is the numbers' doing, excused_depth() in contact.h [m]
+    double excused = 0;  ///< depth that rounding explains, excused_depth() in contact.h [m]
 };
 
 /// Newton and passive restitution act on contacts whose gap, carried on for half a step, is closed.

@@ -198,22 +198,16 @@ double StringWatch::gap_rounding(std::size_t contact) const {
     return gap_rounding_share(model_) * size;
 }
 
-/// Each frame that is stepped sums its gaps afresh, and the law lifts what lies too deep by gap_rounding_m a
-/// step, which may be less than the rounding of a string that is pushed hard, or that obstacles pinch: their
-/// impulses nearly cancel.
-double StringWatch::sinking(const StringState& state, std::size_t contact) const {
-    const double size = bound_of(contacts_[contact].extent, highest_) + highest_obstacle_;
-    const double lift = static_cast<double>(model_.steps_per_frame) * model_.gap_rounding_m;
-    const Counters& counters = state.counters;
-    const std::uint64_t stepped = state.frame - counters.flown_frames - counters.asleep_frames;
-    return static_cast<double>(stepped) * std::max(0.0, sum_rounding(model_, size) - lift) +
-           sum_rounding(model_, largest_answer_ * all_impulses_Ns_);
+/// Impulses of obstacles that pinch the string nearly cancel, and round as what they are: the law lifts what
+/// lies too deep for that by gap_rounding_m a step, which may be less.
+double StringWatch::sinking() const {
+    return sum_rounding(model_, largest_answer_ * all_impulses_Ns_);
 }
 
-double StringWatch::depth_bound(const StringState& state, std::size_t contact) const {
+double StringWatch::depth_bound(std::size_t contact) const {
     const double travel = model_.step_s * bound_of(contacts_[contact].speed, highest_) + rise_;
     return std::max(start_depth_, depth_of_law(model_.law, model_.contact_restitution[contact], travel)) +
-           1e-9 * travel + gap_rounding(contact) + sinking(state, contact);
+           1e-9 * travel + gap_rounding(contact) + sinking();
 }
 
 void StringWatch::check_gaps(const StringState& state, Judge& judge) const {
@@ -221,7 +215,7 @@ void StringWatch::check_gaps(const StringState& state, Judge& judge) const {
     if (!proven || model_.contact_count == 0) return;
     double deepest_allowed = 0;
     for (std::size_t c = 0; c < model_.contact_count; ++c) {
-        const double allowed = depth_bound(state, c);
+        const double allowed = depth_bound(c);
         deepest_allowed = std::max(deepest_allowed, allowed);
         const double gap =
             dot(model_, contact_row(model_, c).data(), state.displacement) - state.contact.height[c];

@@ -44,8 +44,8 @@ class StringWatch {
     void check_counters(const StringState& state, Judge& judge) const;
     void check_outputs(const StringState& state, std::span<const std::span<const double>> outputs,
                        Judge& judge) const;
-    [[nodiscard]] double depth_bound(const StringState& state, std::size_t contact) const;
-    [[nodiscard]] double sinking(const StringState& state, std::size_t contact) const;
+    [[nodiscard]] double depth_bound(std::size_t contact) const;
+    [[nodiscard]] double sinking() const;
     [[nodiscard]] double gap_rounding(std::size_t contact) const;
     [[nodiscard]] double lag_work(const StringState& state) const;
     [[nodiscard]] double lag_work_size(const StringState& state) const;
