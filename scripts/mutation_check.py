@@ -2,9 +2,9 @@
 """Breaks the engine in one place after another and shows that a test fails for each.
 
 The places are tests/mutation/mutations.json: a text that occurs once in a file of the engine, and what is put in its stead.
-A copy of the tree is built in build/mutation with the engine's tests alone; nothing else is touched. Results so far are
-kept, so that a run that is interrupted goes on where it stopped; --again starts over. --current builds nothing: it only
-says whether every place is still there.
+A copy of the tree is built in build/mutation with the engine's tests alone; nothing else is touched. The tests nearest to
+the file run first, all only if those pass. Results so far are kept, so that a run that is interrupted goes on where it
+stopped; --again starts over. --current builds nothing: it only says whether every place is still there.
 
 usage: mutation_check.py [--jobs N] [--only TEXT] [--again] [--current]
 """
@@ -12,6 +12,7 @@ import argparse
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -44,9 +45,21 @@ def configure():
     subprocess.run(["cmake", "-S", TREE, "-B", BUILD, *options], check=True, stdout=subprocess.DEVNULL)
 
 
-def first_failure(seconds):
-    """Name of a test that fails, or None if all pass."""
+def suites_near(file):
+    """Test suites of the engine's file, or else of those that share the first word of its name."""
+    tests = ROOT / "tests/engine"
+    stem = pathlib.Path(file).stem
+    near = [*tests.glob(f"{stem}_test.cpp"), *tests.glob(f"{stem}_*_test.cpp")]
+    near = near or tests.glob(f"{stem.split('_')[0]}_*test.cpp")
+    return sorted({suite for path in near
+                   for suite in re.findall(r"^TEST(?:_[FP])?\((\w+),", path.read_text(encoding="utf-8"), re.MULTILINE)})
+
+
+def first_failure(seconds, suites=()):
+    """Name of a test that fails, or None if all pass: all tests, or those of some suites."""
     command = [BUILD / "bin/engine_tests", "--gtest_brief=1", "--gtest_fail_fast"]
+    if suites:
+        command.append("--gtest_filter=" + ":".join(f"{suite}.*:*/{suite}.*" for suite in suites))
     try:
         run = subprocess.run(command, capture_output=True, text=True, timeout=seconds)
     except subprocess.TimeoutExpired:
@@ -78,7 +91,8 @@ def try_mutation(mutation, jobs, seconds):
         built, output = build(jobs)
         if not built:
             return {"outcome": "does not compile", "detail": output.splitlines()[-1] if output else ""}
-        failure = first_failure(seconds)
+        suites = suites_near(mutation["file"])
+        failure = (first_failure(seconds, suites) if suites else None) or first_failure(seconds)
         return {"outcome": "found", "detail": failure} if failure else {"outcome": "SURVIVED", "detail": ""}
     finally:
         path.write_text(whole, encoding="utf-8")

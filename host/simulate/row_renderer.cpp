@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/cpu_clock.h"
+#include "common/denormals.h"
 #include "jawari/energy.h"
 #include "jawari/render.h"
 
@@ -53,6 +54,7 @@ RowRenderer::RowRenderer(const SceneModel& model, std::uint64_t last_row, Meteri
 }
 
 const RowBlock& RowRenderer::next() {
+    const NoDenormals guard;
     const std::uint64_t left = last_row_ - next_row_ + 1;
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(left, rows_per_block_));
     resize_block(count);

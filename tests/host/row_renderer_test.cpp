@@ -83,5 +83,35 @@ TEST(RowRenderer, DroppedContactsAreNotANumber) {
     EXPECT_NEAR(block.strings[0].gap_m[0], 0.002 * 0.2 / 0.3 + 0.0005, 5e-5);
 }
 
+/// Displacements and velocities among the rows that are neither zero nor normal numbers.
+std::size_t denormal_rows(const std::vector<std::vector<double>>& rows) {
+    std::size_t found = 0;
+    for (std::size_t p = 0; p < 2; ++p) {
+        for (const double value : rows[p]) found += std::fpclassify(value) == FP_SUBNORMAL ? 1 : 0;
+    }
+    return found;
+}
+
+TEST(RowRenderer, StringsThatDieAwayDoNotPassThroughDenormals) {
+    // A pluck near the smallest numbers, 60 dB in 20 ms, and nothing is skipped.
+    std::string text = test::replaced(test::valid_scene, "\"height_m\": 0.002", "\"height_m\": 2e-300");
+    text = test::replaced(text, "\"t60_s\": 3", "\"t60_s\": 0.02");
+    text = test::replaced(text, "\"t60_s\": 1}", "\"t60_s\": 0.02}");
+    const SceneModel model = model_of(text);
+    RowRenderer renderer(model, last_row, Metering::Off, skip_nothing, false);
+    const auto rows = all_rows(renderer);
+    EXPECT_NE(rows[0][1], 0);
+    EXPECT_EQ(rows[0].back(), 0);
+    EXPECT_EQ(denormal_rows(rows), 0U);
+
+    // The engine by itself leaves the processor as it is.
+    SceneState state = make_state(model, Metering::Off, skip_nothing);
+    std::vector<std::vector<double>> alone(4, std::vector<double>(last_row + 1));
+    std::vector<double*> outputs;
+    for (auto& probe : alone) outputs.push_back(probe.data());
+    render(model, state, outputs, last_row + 1);
+    EXPECT_GT(denormal_rows(alone), 0U);
+}
+
 }  // namespace
 }  // namespace jawari::host
