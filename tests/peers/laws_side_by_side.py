@@ -33,7 +33,7 @@ def arguments():
     parser.add_argument("--jawari", required=True, help="the program")
     parser.add_argument("--scene", default=os.path.join(here, "../../presets/scenes/lab/bass.json"))
     parser.add_argument("--rate", type=float, default=44100.0, help="contact rate; default: audio rate")
-    parser.add_argument("--seconds", type=float, default=0.25)
+    parser.add_argument("--seconds", type=float, default=0.1)
     parser.add_argument("--louder", type=float, default=1.0, help="factor of the pluck's height")
     parser.add_argument("--restitution", type=float, nargs="+", default=[0.0, 0.5, 0.9, 1.0])
     parser.add_argument("--check", action="store_true", help="only the verdict")
