@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs the benchmarks and writes docs/benchmarks.md, its CSV files (docs/benchmarks/) and plots (docs/images/benchmarks/).
-# Usage: scripts/bench.sh [STAGE...]     without stages: all of them, in under 20 minutes on two cores
+# Usage: scripts/bench.sh [STAGE...]     without stages: all of them, in less than an hour on two cores
 #   Stages: accuracy convergence work-precision siconos peers cost instructions speed plots page
 #   Only if named: latency (live playing, docs/live-engine.md; a million blocks each, hours)
 # The reference solutions are files; benchmarks/reference/make_references.py remakes them.

@@ -3,8 +3,9 @@
 
 The places are tests/mutation/mutations.json: a text that occurs once in a file of the engine, and what is put in its stead.
 A copy of the tree is built in build/mutation with the engine's tests alone; nothing else is touched. The tests nearest to
-the file run first, all only if those pass. Results so far are kept, so that a run that is interrupted goes on where it
-stopped; --again starts over. --current builds nothing: it only says whether every place is still there.
+the file run first, then those that take less than a second, then all. Results so far are kept, so that a run that is
+interrupted goes on where it stopped; --again starts over. --current builds nothing: it only says whether every place is
+still there.
 
 usage: mutation_check.py [--jobs N] [--only TEXT] [--again] [--current]
 """
@@ -16,7 +17,6 @@ import re
 import shutil
 import subprocess
 import sys
-import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORK = ROOT / "build/mutation"
@@ -55,11 +55,9 @@ def suites_near(file):
                    for suite in re.findall(r"^TEST(?:_[FP])?\((\w+),", path.read_text(encoding="utf-8"), re.MULTILINE)})
 
 
-def first_failure(seconds, suites=()):
-    """Name of a test that fails, or None if all pass: all tests, or those of some suites."""
-    command = [BUILD / "bin/engine_tests", "--gtest_brief=1", "--gtest_fail_fast"]
-    if suites:
-        command.append("--gtest_filter=" + ":".join(f"{suite}.*:*/{suite}.*" for suite in suites))
+def first_failure(seconds, chosen="*"):
+    """Name of a test that fails, or None if all that are chosen pass."""
+    command = [BUILD / "bin/engine_tests", "--gtest_brief=1", "--gtest_fail_fast", f"--gtest_filter={chosen}"]
     try:
         run = subprocess.run(command, capture_output=True, text=True, timeout=seconds)
     except subprocess.TimeoutExpired:
@@ -68,6 +66,19 @@ def first_failure(seconds, suites=()):
         return None
     failed = [line for line in run.stdout.splitlines() if line.startswith("[  FAILED  ]")]
     return failed[0].split("]", 1)[1].split(",")[0].split("(")[0].strip() if failed else f"(exit {run.returncode})"
+
+
+def tests_without_mutation():
+    """(seconds of all tests, names of those that take longer than one); ends the script if one fails."""
+    report = WORK / "tests.json"
+    report.unlink(missing_ok=True)
+    command = [BUILD / "bin/engine_tests", "--gtest_brief=1", f"--gtest_output=json:{report}"]
+    if subprocess.run(command, capture_output=True, text=True).returncode != 0:
+        sys.exit("mutation_check.py: the engine's tests fail without any mutation")
+    suites = json.loads(report.read_text(encoding="utf-8"))["testsuites"]
+    times = {f"{suite['name']}.{test['name']}": float(test["time"].rstrip("s"))
+             for suite in suites for test in suite["testsuite"] if "time" in test}
+    return sum(times.values()), [name for name, time in times.items() if time > 1]
 
 
 def stale(mutations):
@@ -80,7 +91,7 @@ def key_of(mutation):
     return f"{mutation['file']}: {mutation['find']} -> {mutation['replace']}"
 
 
-def try_mutation(mutation, jobs, seconds):
+def try_mutation(mutation, jobs, seconds, slow):
     path = TREE / mutation["file"]
     whole = path.read_text(encoding="utf-8")
     count = whole.count(mutation["find"])
@@ -91,8 +102,9 @@ def try_mutation(mutation, jobs, seconds):
         built, output = build(jobs)
         if not built:
             return {"outcome": "does not compile", "detail": output.splitlines()[-1] if output else ""}
-        suites = suites_near(mutation["file"])
-        failure = (first_failure(seconds, suites) if suites else None) or first_failure(seconds)
+        near = ":".join(f"{suite}.*:*/{suite}.*" for suite in suites_near(mutation["file"]))
+        quick = "*-" + ":".join(slow)
+        failure = (first_failure(seconds, near) if near else None) or first_failure(seconds, quick) or first_failure(seconds)
         return {"outcome": "found", "detail": failure} if failure else {"outcome": "SURVIVED", "detail": ""}
     finally:
         path.write_text(whole, encoding="utf-8")
@@ -118,10 +130,8 @@ def main():
     built, output = build(options.jobs)
     if not built:
         sys.exit(f"mutation_check.py: the engine's tests do not build\n{output}")
-    start = time.monotonic()
-    if failure := first_failure(3600):
-        sys.exit(f"mutation_check.py: {failure} fails without any mutation")
-    seconds = 10 * (time.monotonic() - start) + 60
+    whole, slow = tests_without_mutation()
+    seconds = 10 * whole + 60
     results = {} if options.again or not RESULTS.exists() else json.loads(RESULTS.read_text(encoding="utf-8"))
     bad = 0
     for number, mutation in enumerate(chosen, 1):
@@ -129,11 +139,12 @@ def main():
         if key not in results:
             if sys.stderr.isatty():
                 print(f"\r{number} of {len(chosen)} ", end="", file=sys.stderr)
-            results[key] = try_mutation(mutation, options.jobs, seconds)
+            results[key] = try_mutation(mutation, options.jobs, seconds, slow)
             RESULTS.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
         outcome = results[key]
         bad += outcome["outcome"] != "found"
-        print(f"{outcome['outcome']:8}  {mutation['file']}: {mutation['find'].strip().splitlines()[0][:70]}  {outcome['detail']}")
+        print(f"{outcome['outcome']:8}  {mutation['file']}: {mutation['find'].strip().splitlines()[0][:70]}  {outcome['detail']}",
+              flush=True)
     print(f"{len(chosen) - bad} of {len(chosen)} mutations were found")
     sys.exit(bad > 0)
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/cpu_clock.h"
+#include "common/denormals.h"
 #include "jawari/jawari.h"
 #include "scenes.h"
 
@@ -27,6 +28,7 @@ struct BlockTimes {
 };
 
 BlockTimes measure_blocks(const SceneModel& model, double sound_s) {
+    const host::NoDenormals guard;  // as jawari plays
     const auto blocks = static_cast<std::size_t>(sound_s * output_rate_hz / block_frames);
     BlockTimes times;
     times.least.assign(blocks, 1e9);

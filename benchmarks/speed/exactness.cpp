@@ -8,6 +8,7 @@
 #include <string>
 
 #include "agreement.h"
+#include "common/denormals.h"
 #include "jawari/jawari.h"
 #include "scenes.h"
 
@@ -33,6 +34,7 @@ bool print_row(const std::string& scene, ImpactLaw law, double restitution, doub
 }
 
 bool print_scene(const std::string& scene, double sound_s, double highest_rate_hz) {
+    const host::NoDenormals guard;  // as jawari simulates
     std::printf("`%s`, %g s\n\n", scene.c_str(), sound_s);
     std::puts(
         "| law | e | contact rate (MHz) | difference | between uniform runs | impulses | without skipping | "

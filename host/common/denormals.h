@@ -1,6 +1,6 @@
 // Denormal numbers cost some processors a hundred cycles each: while a guard lives, results below 2.2e-308
-// are zero. Live playing and rendering to files both use it, so that they give the same bits; simulations use it
-// too, or strings that die away without skipping would pass through them.
+// are zero. Live playing and rendering to files both use it, so that they give the same bits; simulations use
+// it too, or strings that die away without skipping would pass through them.
 #pragma once
 
 #include <cstdint>

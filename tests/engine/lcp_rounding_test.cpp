@@ -66,6 +66,42 @@ TEST(LcpRounding, SetsOfNearlyCoincidentContactsLast) {
     }
 }
 
+/// A string pinched between obstacles that lie close together: impulses that nearly cancel, so that no gap is
+/// known better than to the rounding of their products; and each contact has a twin at the same place.
+TEST(LcpRounding, TwinsOfPinchingContactsAreNoViolations) {
+    const std::vector<double> sides{1, -1, 1, 1, -1, 1};
+    for (const double distance : {2e-3, 1e-3, 5e-4, 2e-4}) {
+        const std::vector<double> places{0.5, 0.5 + distance, 0.5 + 2 * distance,
+                                         0.5, 0.5 + distance, 0.5 + 2 * distance};
+        std::vector<double> A = delassus(places);
+        const std::size_t n = places.size();
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t j = 0; j < n; ++j) A[i * n + j] *= sides[i] * sides[j];
+        }
+        std::vector<std::uint32_t> candidates(n);
+        std::iota(candidates.begin(), candidates.end(), 0U);
+        LcpWorkspace workspace = make_lcp_workspace(n);
+        std::mt19937 random(11);
+        std::uniform_real_distribution<double> strength(0.5, 2);
+        std::vector<double> lambda(n, 0.0), residual(n, 0.0);
+        std::size_t pivots = 0;
+        for (int solve = 0; solve < 200; ++solve) {
+            const double impulse = strength(random);
+            const double solution[] = {impulse, 2 * impulse, impulse};  // a second difference, nearly
+            std::vector<double> r(n, 0.0);
+            for (std::size_t i = 0; i < n; ++i) {
+                for (std::size_t j = 0; j < 3; ++j) r[i] -= A[i * n + j] * solution[j];
+            }
+            const double violation = -*std::min_element(r.begin(), r.end());
+            const LcpOutcome outcome = solve_lcp({A.data(), n}, r, candidates, lambda, residual, workspace);
+            EXPECT_TRUE(outcome.finished) << distance << " solve " << solve;
+            EXPECT_LE(residual_of(A, r, lambda), 1e-9 * violation) << distance << " solve " << solve;
+            pivots += outcome.pivots;
+        }
+        EXPECT_LE(pivots, 200U) << distance;
+    }
+}
+
 /// Whatever the size of the numbers, a solve is the same problem, until its tolerance would underflow: then
 /// there is nothing to do.
 TEST(LcpRounding, ScalesDownToTheSmallestNumbers) {

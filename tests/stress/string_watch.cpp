@@ -44,6 +44,14 @@ bool has_independent_contacts(const StringModel& model) {
     return true;
 }
 
+/// Whether some mode moves gaps, but is moved by no impulse: at multiples of twice the step's Nyquist rate.
+/// Then obstacles may contradict one another whatever the impulses are.
+bool has_immovable_modes(const StringModel& model) {
+    const auto end = model.mobility.begin() + static_cast<std::ptrdiff_t>(model.mode_count);
+    const auto [least, most] = std::minmax_element(model.mobility.begin(), end);
+    return *least < 1e-12 * *most;
+}
+
 /// How often q and v have been rounded: in every step, but once in a frame that is flown.
 std::uint64_t roundings_of(const StringModel& model, const Counters& counters) {
     const std::uint64_t crossed = counters.flown_frames + counters.asleep_frames;
@@ -73,7 +81,7 @@ StringWatch::StringWatch(const StringModel& model, const StringState& start, std
     for (std::size_t p = 0; p < model.probes.size(); ++p)
         probes_.push_back(reach_of(model, {model.probe_rows.data() + p * model.stride, model.stride}));
     step_rounding_ = step_rounding(model);
-    may_be_unsolvable_ = model.contact_count > limits::active_contacts;
+    may_be_unsolvable_ = model.contact_count > limits::active_contacts || has_immovable_modes(model);
     highest_ = energy(model, start);
 }
 
