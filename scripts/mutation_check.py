@@ -26,12 +26,17 @@ RESULTS = WORK / "results.json"
 
 
 def copy_tree():
-    """What is tracked, as it is in the working tree."""
-    shutil.rmtree(TREE, ignore_errors=True)
+    """What is tracked, as it is in the working tree. Files that are right stay as they are: one that held a mutation when
+    it was last compiled is newer than its object."""
     tracked = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
-    for name in filter(None, tracked.split("\0")):
-        (TREE / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy2(ROOT / name, TREE / name)
+    names = set(filter(None, tracked.split("\0")))
+    for path in [path for path in TREE.rglob("*") if path.is_file() and str(path.relative_to(TREE)) not in names]:
+        path.unlink()
+    for name in names:
+        target = TREE / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        if not target.exists() or target.read_bytes() != (ROOT / name).read_bytes():
+            shutil.copyfile(ROOT / name, target)
 
 
 def build(jobs):
