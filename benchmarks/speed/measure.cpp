@@ -29,8 +29,8 @@ Counters counters_of(const SceneState& state) {
 
 Measurement measure(const SceneModel& model, double sound_s, const Skipping& skipping, double skip_s,
                     int repetitions) {
-    const host::NoDenormals
-        guard;  // or uniform stepping would crawl through numbers that skipping never meets
+    // Uniform stepping would crawl through numbers that skipping never meets.
+    const host::NoDenormals guard;
     const auto frames_in = [&](double seconds) {
         return static_cast<std::size_t>(seconds * model.output_rate_hz);
     };
