@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "jawari/lcp.h"
@@ -40,28 +41,50 @@ double residual_of(const std::vector<double>& A, const std::vector<double>& r,
     return static_cast<double>(worst);
 }
 
+/// One operator, solved again and again, each time from the last solution.
+struct RepeatedSolves {
+    std::vector<double> A;
+    std::vector<std::uint32_t> candidates;
+    std::vector<double> lambda, residual;
+    LcpWorkspace workspace;
+
+    explicit RepeatedSolves(std::vector<double> op, std::size_t contacts)
+        : A(std::move(op)),
+          candidates(contacts),
+          lambda(contacts, 0.0),
+          residual(contacts, 0.0),
+          workspace(make_lcp_workspace(contacts)) {
+        std::iota(candidates.begin(), candidates.end(), 0U);
+    }
+
+    /// The problem that impulses of the first contacts solve with all gaps closed; returns the pivots it
+    /// took.
+    std::size_t expect_solved(const std::vector<double>& impulses) {
+        const std::size_t n = candidates.size();
+        std::vector<double> r(n, 0.0);
+        for (std::size_t j = 0; j < impulses.size(); ++j) {
+            for (std::size_t i = 0; i < n; ++i) r[i] -= A[i * n + j] * impulses[j];
+        }
+        const double violation = -*std::min_element(r.begin(), r.end());
+        const LcpOutcome outcome = solve_lcp({A.data(), n}, r, candidates, lambda, residual, workspace);
+        EXPECT_TRUE(outcome.finished);
+        EXPECT_LE(residual_of(A, r, lambda), 1e-9 * violation);
+        return outcome.pivots;
+    }
+};
+
 /// The inverse that a lasting active set gets loses more than its factor does.
 TEST(LcpRounding, SetsOfNearlyCoincidentContactsLast) {
     for (const double distance : {1e-3, 1e-4, 1e-5, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8}) {
         const std::vector<double> places{0.5, 0.5 + distance, 1.3, 1.3 + distance, 1.3 + 2 * distance, 2.2};
-        const std::vector<double> A = delassus(places);
-        const std::size_t n = places.size();
-        std::vector<std::uint32_t> candidates(n);
-        std::iota(candidates.begin(), candidates.end(), 0U);
-        LcpWorkspace workspace = make_lcp_workspace(n);
+        RepeatedSolves solves(delassus(places), places.size());
         std::mt19937 random(7);
         std::uniform_real_distribution<double> impulse(0.5, 1);
-        std::vector<double> lambda(n, 0.0), residual(n, 0.0);
+        std::vector<double> impulses(places.size());
         for (int solve = 0; solve < 40; ++solve) {
-            std::vector<double> r(n, 0.0);  // solved by impulses on all contacts
-            for (std::size_t j = 0; j < n; ++j) {
-                const double x = impulse(random);
-                for (std::size_t i = 0; i < n; ++i) r[i] -= A[i * n + j] * x;
-            }
-            const double violation = -*std::min_element(r.begin(), r.end());
-            const LcpOutcome outcome = solve_lcp({A.data(), n}, r, candidates, lambda, residual, workspace);
-            EXPECT_TRUE(outcome.finished) << distance << " solve " << solve;
-            EXPECT_LE(residual_of(A, r, lambda), 1e-9 * violation) << distance << " solve " << solve;
+            SCOPED_TRACE(testing::Message() << distance << " solve " << solve);
+            for (double& x : impulses) x = impulse(random);
+            solves.expect_solved(impulses);
         }
     }
 }
@@ -70,33 +93,19 @@ TEST(LcpRounding, SetsOfNearlyCoincidentContactsLast) {
 /// known better than to the rounding of their products; and each contact has a twin at the same place.
 TEST(LcpRounding, TwinsOfPinchingContactsAreNoViolations) {
     const std::vector<double> sides{1, -1, 1, 1, -1, 1};
+    const std::size_t n = sides.size();
     for (const double distance : {2e-3, 1e-3, 5e-4, 2e-4}) {
-        const std::vector<double> places{0.5, 0.5 + distance, 0.5 + 2 * distance,
-                                         0.5, 0.5 + distance, 0.5 + 2 * distance};
-        std::vector<double> A = delassus(places);
-        const std::size_t n = places.size();
-        for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t j = 0; j < n; ++j) A[i * n + j] *= sides[i] * sides[j];
-        }
-        std::vector<std::uint32_t> candidates(n);
-        std::iota(candidates.begin(), candidates.end(), 0U);
-        LcpWorkspace workspace = make_lcp_workspace(n);
+        std::vector<double> A =
+            delassus({0.5, 0.5 + distance, 0.5 + 2 * distance, 0.5, 0.5 + distance, 0.5 + 2 * distance});
+        for (std::size_t i = 0; i < n * n; ++i) A[i] *= sides[i / n] * sides[i % n];
+        RepeatedSolves solves(std::move(A), n);
         std::mt19937 random(11);
         std::uniform_real_distribution<double> strength(0.5, 2);
-        std::vector<double> lambda(n, 0.0), residual(n, 0.0);
         std::size_t pivots = 0;
         for (int solve = 0; solve < 200; ++solve) {
+            SCOPED_TRACE(testing::Message() << distance << " solve " << solve);
             const double impulse = strength(random);
-            const double solution[] = {impulse, 2 * impulse, impulse};  // a second difference, nearly
-            std::vector<double> r(n, 0.0);
-            for (std::size_t i = 0; i < n; ++i) {
-                for (std::size_t j = 0; j < 3; ++j) r[i] -= A[i * n + j] * solution[j];
-            }
-            const double violation = -*std::min_element(r.begin(), r.end());
-            const LcpOutcome outcome = solve_lcp({A.data(), n}, r, candidates, lambda, residual, workspace);
-            EXPECT_TRUE(outcome.finished) << distance << " solve " << solve;
-            EXPECT_LE(residual_of(A, r, lambda), 1e-9 * violation) << distance << " solve " << solve;
-            pivots += outcome.pivots;
+            pivots += solves.expect_solved({impulse, 2 * impulse, impulse});  // nearly a second difference
         }
         EXPECT_LE(pivots, 200U) << distance;
     }
