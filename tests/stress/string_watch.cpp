@@ -44,14 +44,6 @@ bool has_independent_contacts(const StringModel& model) {
     return true;
 }
 
-/// Whether some mode moves gaps, but is moved by no impulse: at multiples of twice the step's Nyquist rate.
-/// Then obstacles may contradict one another whatever the impulses are.
-bool has_immovable_modes(const StringModel& model) {
-    const auto end = model.mobility.begin() + static_cast<std::ptrdiff_t>(model.mode_count);
-    const auto [least, most] = std::minmax_element(model.mobility.begin(), end);
-    return *least < 1e-12 * *most;
-}
-
 /// How often q and v have been rounded: in every step, but once in a frame that is flown.
 std::uint64_t roundings_of(const StringModel& model, const Counters& counters) {
     const std::uint64_t crossed = counters.flown_frames + counters.asleep_frames;
@@ -62,6 +54,17 @@ bool has_both_sides(const StringModel& model) {
     const auto above = [](Side side) { return side == Side::Above; };
     const auto n = std::count_if(model.contact_side.begin(), model.contact_side.end(), above);
     return n > 0 && static_cast<std::size_t>(n) < model.contact_count;
+}
+
+/// Whether obstacles may contradict one another whatever the impulses are: where some mode moves gaps, but is
+/// moved by no impulse (at multiples of twice the step's Nyquist rate), and impulses can cancel in all
+/// others. In the first mode, whose shape has one sign, they cancel only from both sides.
+bool may_contradict(const StringModel& model) {
+    const auto end = model.mobility.begin() + static_cast<std::ptrdiff_t>(model.mode_count);
+    const double immovable = 1e-12 * *std::max_element(model.mobility.begin(), end);
+    const auto stays = [immovable](double mobility) { return mobility < immovable; };
+    return std::any_of(model.mobility.begin(), end, stays) &&
+           (stays(model.mobility.front()) || has_both_sides(model));
 }
 
 }  // namespace
@@ -81,7 +84,7 @@ StringWatch::StringWatch(const StringModel& model, const StringState& start, std
     for (std::size_t p = 0; p < model.probes.size(); ++p)
         probes_.push_back(reach_of(model, {model.probe_rows.data() + p * model.stride, model.stride}));
     step_rounding_ = step_rounding(model);
-    may_be_unsolvable_ = model.contact_count > limits::active_contacts || has_immovable_modes(model);
+    may_be_unsolvable_ = model.contact_count > limits::active_contacts || may_contradict(model);
     highest_ = energy(model, start);
 }
 
