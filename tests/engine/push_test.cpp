@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "certificate.h"
+#include "frame.h"
 #include "scenes.h"
 
 namespace jawari {
@@ -77,6 +80,56 @@ TEST(Push, ImpulsesOfAFrameAddUp) {
     charge_impulses(struck.model, struck.state);
     EXPECT_NEAR(struck.state.certificate.group_push[1], struck.pushed_m, 1e-8 * struck.pushed_m);
     EXPECT_TRUE(admit_pushed_contacts(struck.model, struck.state));
+}
+
+/// How far 1 N s at a contact lowers the gaps of a group within the frame, step by step; Newton's law acts on
+/// what the gap would be half a step later.
+double stepped_push(const StringModel& model, std::size_t struck, std::size_t first, std::size_t last) {
+    const std::size_t n = model.stride;
+    StringState state = make_string_state(model, Metering::Off, skip_nothing);
+    for (std::size_t k = 0; k < model.mode_count; ++k) {
+        state.velocity[k] = model.mobility[k] * model.contact_rows[struck * n + k];
+        state.displacement[k] = model.step_s * state.velocity[k];
+    }
+    notice_change(model, state);
+    const double ahead_s = model.law == ImpactLaw::Newton ? model.step_s / 2 : 0;
+    double lowest = 0;
+    for (std::size_t step_count = 0; step_count < model.steps_per_frame; ++step_count) {
+        if (step_count > 0) step(model, state);
+        for (std::size_t c = first; c < last; ++c) {
+            const double* row = model.contact_rows.data() + c * n;
+            const double gap =
+                std::inner_product(row, row + model.mode_count, state.displacement.begin(), 0.0);
+            const double rate = std::inner_product(row, row + model.mode_count, state.velocity.begin(), 0.0);
+            lowest = std::min({lowest, gap, gap + ahead_s * rate});
+        }
+    }
+    return -lowest;
+}
+
+TEST(Push, TabulatedOnesAreWhatSteppingShows) {
+    for (const ImpactLaw law : {ImpactLaw::Newton, ImpactLaw::Signorini}) {
+        for (const std::size_t contacts : {5U, 100U}) {  // own responses, and those of a uniform neck
+            test::RandomScene random(11);
+            SceneDescription scene = random.scene(law, 48000, 1e6);
+            StringDescription& string = scene.strings[0];
+            const std::vector<ProfilePoint> far{{0, -1}, {0.7 * string.length_m, -1}};
+            string.contacts = sampled_neck(string.length_m, contacts, far, 0);
+            const StringModel model = test::compiled_string(scene);
+            ASSERT_EQ(model.contact_count, contacts);
+            const std::vector<std::size_t>& begin = model.certificate.group_begin;
+            const std::size_t groups = begin.size() - 1;
+            double largest = 0;
+            for (const double push : model.certificate.push) largest = std::max(largest, push);
+            for (std::size_t g = 0; g < groups; g += 1 + groups / 7) {
+                for (std::size_t struck = 0; struck < contacts; struck += 1 + contacts / 5) {
+                    EXPECT_NEAR(model.certificate.push[g * contacts + struck],
+                                stepped_push(model, struck, begin[g], begin[g + 1]), 1e-9 * largest)
+                        << "group " << g << ", contact " << struck;
+                }
+            }
+        }
+    }
 }
 
 }  // namespace
