@@ -46,6 +46,20 @@ TEST(FrameCost, OneContactCountedByHand) {
               looking + rates + impulses + contact);
 }
 
+TEST(FrameCost, TheBoundOfOneContactOfAShortFrameCountedByHand) {
+    // What is counted above for a frame that is not short, to look, gap and rate at the start, and all of a
+    // short frame but its five solves. Each of those makes the table of eight anew and fails after two pivots
+    // of 16; the general one then begins with two products and goes to its end, 4 + 16 pivots with two
+    // factors of a third, four products and a residual each.
+    const double looking = 16 * (17 + 3 + 2 + 4);
+    const double start = 16 * 2;
+    const double modes = 16 * (5 * (3 + 8) + 5 * (3 + 1) + 2);
+    const double spread = 8 * (10 + 2 * 5);
+    const double solve = 8 + 2 * (8 + 8) + 2 + 20 * (2.0 / 3 + 4 + 1);
+    EXPECT_DOUBLE_EQ(frame_cost(string_with(16, 1, 48000 * 5)).bound,
+                     looking + start + modes + spread + 5 * solve);
+}
+
 TEST(FrameCost, ABoundIsNoLessThanPermanentContactAndThatNoLessThanFlight) {
     for (const std::size_t contacts : {1U, 5U, 20U}) {
         for (const double rate_hz : {48e3, 192e3, 2016e3}) {

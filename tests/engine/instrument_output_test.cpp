@@ -3,12 +3,14 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "bass_instrument.h"
 #include "instrument_body.h"
 #include "instrument_pickup.h"
 #include "instrument_voice.h"
 #include "jawari/modes.h"
+#include "small_instrument.h"
 
 namespace jawari {
 namespace {
@@ -103,6 +105,37 @@ TEST(Pickup, QuantitiesMixAndMagnet) {
     EXPECT_NEAR(pickup_signal(model, stopped, voice.string, 0.5), first + second + third, 1e-12);
     EXPECT_NEAR(pickup_signal(model, stopped, voice.string, 0), first, 1e-12);
     EXPECT_NEAR(pickup_signal(model, stopped, voice.string, 1), second + third, 1e-12);
+}
+
+/// What a pan does to one and the same note.
+test::Played panned(const InstrumentModel& model, double pan) {
+    InstrumentState state = make_instrument_state(model);
+    InstrumentEvent turn{0, InstrumentEventType::SetParameter, 0, 0, pan};
+    turn.parameter = ParameterId::Pan;
+    return test::play(model, state, {turn, {0, InstrumentEventType::NoteOn, 0, 28, 0.5}}, 6000);
+}
+
+double power_of(const std::vector<double>& x) {
+    return std::inner_product(x.begin() + 3000, x.end(), x.begin() + 3000,
+                              0.0);  // after controls have glided
+}
+
+TEST(Pan, IsFromLeftToRightWithConstantPower) {
+    const InstrumentModel model = compile_instrument(open_string(), 48000).value();
+    const test::Played middle = panned(model, 0);
+    const double power = power_of(middle.left) + power_of(middle.right);
+    ASSERT_GT(power, 0);
+    EXPECT_NEAR(power_of(middle.left), power_of(middle.right), 1e-9 * power);
+    for (const double pan : {-1.0, -0.6, -0.2, 0.3, 0.8, 1.0}) {
+        const test::Played there = panned(model, pan);
+        const double left = power_of(there.left);
+        const double right = power_of(there.right);
+        EXPECT_NEAR(left + right, power, 1e-6 * power) << pan;
+        EXPECT_GT((right - left) * pan, 0) << pan;
+        if (std::abs(pan) == 1) {
+            EXPECT_LT(std::min(left, right), 1e-9 * power);
+        }
+    }
 }
 
 }  // namespace

@@ -31,6 +31,24 @@ TEST(Quality, ResolutionRisesWithTheDemandAndIsAMultipleOfTheOutputRate) {
     }
 }
 
+/// Errors of contact fall as the contact rate rises, and add as squares to those of missing modes: two
+/// demands that keep the same modes must agree on what is missing.
+TEST(Quality, TheContactRatePaysForModesThatAreMissing) {
+    const double fine_hz = 1000;  // so that whole steps round the rates by little
+    const double error_times_rate = 1e-4 * resolution_for(1e-4, fine_hz).contact_rate_hz;  // with all modes
+    for (const double error : {0.19, 0.31, 0.55}) {
+        const Resolution strict = resolution_for(error, fine_hz);
+        const Resolution easy = resolution_for(1.1 * error, fine_hz);
+        ASSERT_EQ(strict.mode_limit_hz, easy.mode_limit_hz);
+        const auto missing = [&](double whole, const Resolution& resolution) {
+            const double of_contact = error_times_rate / resolution.contact_rate_hz;
+            return std::sqrt(whole * whole - of_contact * of_contact);
+        };
+        EXPECT_NEAR(missing(error, strict), missing(1.1 * error, easy), 0.01 * error);
+        EXPECT_GT(missing(error, strict), 0.5 * error);
+    }
+}
+
 TEST(Quality, ModesAreCutAtTheLimitWhateverTheirForm) {
     const double limit_hz = resolution_for(error_target(Quality::Live), 48000).mode_limit_hz;
     SceneDescription scene = bass();
