@@ -3,9 +3,9 @@
 
 The places are tests/mutation/mutations.json: a text that occurs once in a file of the engine, and what is put in its stead.
 A copy of the tree is built in build/mutation with the engine's tests alone; nothing else is touched. The tests nearest to
-the file run first, then those that take less than a second, then all. Results so far are kept, so that a run that is
-interrupted goes on where it stopped; --again starts over. --current builds nothing: it only says whether every place is
-still there.
+the file run first, then those that take less than a second, then all. What was found is kept, so that a run that is
+interrupted goes on where it stopped, and one after tests were added tries what survived; --again starts over. --current
+builds nothing: it only says whether every place is still there.
 
 usage: mutation_check.py [--jobs N] [--only TEXT] [--again] [--current]
 """
@@ -137,7 +137,8 @@ def main():
         sys.exit(f"mutation_check.py: the engine's tests do not build\n{output}")
     whole, slow = tests_without_mutation()
     seconds = 10 * whole + 60
-    results = {} if options.again or not RESULTS.exists() else json.loads(RESULTS.read_text(encoding="utf-8"))
+    earlier = {} if options.again or not RESULTS.exists() else json.loads(RESULTS.read_text(encoding="utf-8"))
+    results = {key: result for key, result in earlier.items() if result["outcome"] == "found"}
     bad = 0
     for number, mutation in enumerate(chosen, 1):
         key = key_of(mutation)

@@ -7,6 +7,7 @@
 
 #include "bass_instrument.h"
 #include "instrument_voice.h"
+#include "jawari/energy.h"
 #include "jawari/modes.h"
 
 namespace jawari {
@@ -47,8 +48,11 @@ void expect_projection(std::size_t from_fret, std::size_t to_fret) {
         u[k] = std::sin(static_cast<double>(5 * k)) / static_cast<double>(k + 1);
         from.string.velocity[k] = a.backward_q[k] * from.string.displacement[k] + a.backward_u[k] * u[k];
     }
+    const double before_J = energy(a.string, from.string) + energy(b.string, to.string);
     PlayerWork work;
     carry_over(string, from, to, work);
+    ASSERT_GT(before_J, 0);
+    EXPECT_NEAR(work.transfers_J, energy(b.string, to.string) - before_J, 1e-9 * before_J);
     const double shorter = std::min(a.string.length_m, b.string.length_m);
     const double end_q = shape_at(a.string, from.string.displacement, shorter);
     const double end_u = shape_at(a.string, u, shorter);
