@@ -4,14 +4,14 @@
 #   --engine: the engine and its own tests alone, a third of the time
 #   --no-run: of the counts that are there, without running the tests again
 # Prints a table of the files, least covered first; build/coverage/uncovered.txt has the lines themselves. Progress goes to
-# standard error. Needs gcovr: scripts/setup.sh --coverage. Left out: tests of pitches, peers and devices, which run code
-# that others run as well.
+# standard error. Needs clang and llvm: scripts/setup.sh --coverage. Left out: tests of pitches, presets and peers, which
+# run code that others run as well. What a killed program ran is not counted.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
 run=true
 host=ON
-targets=(jawari engine_tests host_tests thread_tests play_tests stress_tests jawari_fuzzers)
+targets=(jawari engine_tests host_tests thread_tests play_tests stress_tests midi_sender machine_gaps jawari_fuzzers)
 for argument in "$@"; do
     case "$argument" in
         --engine) host=OFF targets=(engine_tests) ;;
@@ -19,38 +19,54 @@ for argument in "$@"; do
         *) echo "coverage.sh: unknown argument '$argument' (allowed: --engine, --no-run)" >&2; exit 2 ;;
     esac
 done
-command -v gcovr > /dev/null || { echo "coverage.sh: no gcovr; scripts/setup.sh --coverage" >&2; exit 1; }
+for tool in clang++ llvm-profdata llvm-cov; do
+    command -v "$tool" > /dev/null || { echo "coverage.sh: no $tool; scripts/setup.sh --coverage" >&2; exit 1; }
+done
 
 build=build/coverage
+profiles=$PWD/$build/profiles
 if $run; then
-    # Optimised a little: the tests are long. Not more, or lines would be merged.
-    cmake -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g" \
-        -DCMAKE_CXX_FLAGS="--coverage -fprofile-update=prefer-atomic" -DJAWARI_BUILD_BENCHMARKS=OFF -DJAWARI_BUILD_HOST=$host > /dev/null
+    # Optimised a little, and with as few random scenes as under sanitizers: the tests are long.
+    cmake -B "$build" -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+        -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1" -DJAWARI_BUILD_BENCHMARKS=OFF -DJAWARI_BUILD_HOST=$host \
+        -DCMAKE_CXX_FLAGS="-fprofile-instr-generate -fcoverage-mapping -fprofile-update=atomic -DJAWARI_SANITIZED" > /dev/null
     cmake --build "$build" --parallel "${JOBS:-$(nproc)}" --target "${targets[@]}" >&2
-    find "$build" -name '*.gcda' -delete
-    # Not soak_tests, peers, presets, live: they are not built here.
-    ctest --test-dir "$build" -j "${JOBS:-$(nproc)}" -E 'NOT_BUILT|RenderPitch|^(peers|presets|examples|live|embed)' \
-        --timeout 1500 >&2 || echo "coverage.sh: tests failed; counts are of what ran" >&2
+    rm -rf "$profiles"
+    mkdir -p "$profiles"
+    # Each program adds to one of two files of its own.
+    LLVM_PROFILE_FILE="$profiles/%2m.profraw" ctest --test-dir "$build" -j "${JOBS:-$(nproc)}" \
+        -E 'NOT_BUILT|RenderPitch|^(peers|presets|examples|embed)|live.loop_latency' --timeout 1500 >&2 ||
+        echo "coverage.sh: tests failed; counts are of what ran" >&2
 fi
 
-gcovr --root . --object-directory "$build" --filter engine/ --filter host/ --exclude-unreachable-branches \
-    --gcov-ignore-parse-errors --json "$build/coverage.json" "$build" 2> "$build/gcovr.log" >&2
-/usr/bin/python3 - "$build/coverage.json" "$build/uncovered.txt" << 'PYTHON'
-import json
+llvm-profdata merge -sparse "$profiles"/*.profraw -o "$build/all.profdata"
+programs=()
+for program in "$build"/bin/*; do programs+=(-object "$program"); done
+llvm-cov export -format=lcov -instr-profile="$build/all.profdata" "${programs[@]:1}" engine host > "$build/coverage.lcov"
+/usr/bin/python3 - "$build/coverage.lcov" "$build/uncovered.txt" << 'PYTHON'
+import os
+import re
 import sys
+
+counts = {}  # of a file's lines: how often each ran
+for entry in open(sys.argv[1], encoding="utf-8"):
+    kind, _, rest = entry.rstrip().partition(":")
+    if kind == "SF":
+        lines = counts.setdefault(os.path.relpath(rest), {})
+    elif kind == "DA":
+        number, count = map(int, rest.split(",")[:2])
+        lines[number] = lines.get(number, 0) + count
 
 files = []
 with open(sys.argv[2], "w", encoding="utf-8") as uncovered:
-    for entry in json.load(open(sys.argv[1], encoding="utf-8"))["files"]:
-        counts = {}
-        for line in entry["lines"]:  # an inline function or template has a count for each of its copies
-            if not line.get("gcovr/noncode", False):
-                counts[line["line_number"]] = counts.get(line["line_number"], 0) + line["count"]
-        missed = [number for number, count in sorted(counts.items()) if count == 0]
-        files.append((entry["file"], len(counts), len(missed)))
-        source = open(entry["file"], encoding="utf-8").read().splitlines()
+    for name, lines in sorted(counts.items()):
+        source = open(name, encoding="utf-8").read().splitlines()
+        # Regions hold comments, empty lines and lone braces as well.
+        code = {number: count for number, count in lines.items() if not re.fullmatch(r"\s*(//.*|[{}();,]*)\s*", source[number - 1])}
+        missed = [number for number, count in sorted(code.items()) if count == 0]
+        files.append((name, len(code), len(missed)))
         for number in missed:
-            uncovered.write(f"{entry['file']}:{number}: {source[number - 1].strip()}\n")
+            uncovered.write(f"{name}:{number}: {source[number - 1].strip()}\n")
 
 print("| file | lines | never run | covered |\n|---|---|---|---|")
 files.sort(key=lambda file: (-file[2], file[0]))

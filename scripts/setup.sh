@@ -59,7 +59,9 @@ packages_bench=(
     faust             # peer: physical models
 )
 packages_coverage=(
-    gcovr             # sums up what gcov counts
+    clang             # counts what runs
+    libclang-rt-14-dev # its run time
+    llvm              # sums it up
 )
 packages_realtime=(
     clang-22          # -Wfunction-effects, -fsanitize=realtime
