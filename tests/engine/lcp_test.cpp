@@ -384,7 +384,7 @@ TEST(Lcp, EverySolveEnds) {
     // In a process of its own, so that a solver that pivots for ever fails the test instead of hanging it.
     EXPECT_EXIT(
         {
-            alarm(30);
+            alarm(600);
             solve_hostile_problems();
             std::exit(testing::Test::HasFailure() ? 1 : 0);
         },
