@@ -26,10 +26,11 @@ done
 build=build/coverage
 profiles=$PWD/$build/profiles
 if $run; then
-    # Optimised a little, and with as few random scenes as under sanitizers: the tests are long.
+    # Optimised a little, and with as few random scenes as under sanitizers: the tests are long. Kernels for one instruction
+    # set, or the counts of their copies would not be told apart.
     cmake -B "$build" -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo \
         -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1" -DJAWARI_BUILD_BENCHMARKS=OFF -DJAWARI_BUILD_HOST=$host \
-        -DCMAKE_CXX_FLAGS="-fprofile-instr-generate -fcoverage-mapping -fprofile-update=atomic -DJAWARI_SANITIZED" > /dev/null
+        -DCMAKE_CXX_FLAGS="-fprofile-instr-generate -fcoverage-mapping -fprofile-update=atomic -DJAWARI_SANITIZED -DHWY_COMPILE_ONLY_STATIC" > /dev/null
     cmake --build "$build" --parallel "${JOBS:-$(nproc)}" --target "${targets[@]}" >&2
     rm -rf "$profiles"
     mkdir -p "$profiles"

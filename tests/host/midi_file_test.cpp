@@ -117,6 +117,20 @@ TEST(MidiFile, AcceptsTheRiffWrapper) {
     const auto file = parse_midi(bytes);
     ASSERT_TRUE(file.ok()) << file.failure().line();
     EXPECT_EQ(file.value().events.size(), 1U);
+
+    const auto expect_refusal = [&](const Bytes& wrong, const std::string& reason) {
+        const auto refused = parse_midi(wrong);
+        ASSERT_FALSE(refused.ok()) << reason;
+        EXPECT_NE(refused.failure().line().find(reason), std::string::npos) << refused.failure().line();
+    };
+    Bytes wave = bytes;
+    std::copy_n("WAVE", 4, wave.begin() + 8);
+    expect_refusal(wave, "a RIFF file of another kind (allowed: RMID)");
+    const Bytes without_data(bytes.begin(), bytes.begin() + 12 + 10);
+    expect_refusal(without_data, "an RMID file without a data chunk");
+    Bytes cut = bytes;
+    cut.pop_back();
+    expect_refusal(cut, "RIFF chunk of " + std::to_string(inner.size()) + " bytes (allowed: at most the");
 }
 
 // ---------------------------------------------------------------------------------------------- midicsv

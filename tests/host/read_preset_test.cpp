@@ -209,7 +209,21 @@ TEST(ReadPreset, EveryFaultIsNamedWithItsPlace) {
         {"\"course\": 0", "\"course\": 3", "strings[0].course: 3"},
         {"\"width_m\": 0.02", "\"width_m\": 5", "pickups[0].width_m: 5"},
         {"\"model\": \"t60\"", "\"model\": \"felt\"", "strings[0].damping.model: "},
-        {"\"t60_s\": 1}", "\"t60_s\": -1}", "strings[0]."}};
+        {"\"t60_s\": 1}", "\"t60_s\": -1}", "strings[0]."},
+        {"\"schema\": \"jawari.preset/2\", ", "", "schema: missing (allowed: \"jawari.preset/2\")"},
+        {"{\"gain\": \"chosen by ear\"}", "7", "provenance: 7 (allowed: an object)"},
+        {"\"contacts\": false", "\"contacts\": 0", "contacts: 0 (allowed: true or false)"},
+        {"\"strings\": [0]}]", "\"strings\": [0.5]}]",
+         "obstacles[1].strings[0]: 0.5 (allowed: a whole number from 0)"},
+        {"\"velocity_range\": [0, 0.5]", "\"velocity_range\": [0]",
+         "exciters[0].velocity_range: 1 numbers (allowed: two numbers)"},
+        {"\"string_range\": [0, 3]", "\"string_range\": [3]", "exciters[0].string_range: 1 numbers"},
+        {"\"profile_m\": [[0.3, 0.002], [0.4, 0.003]], ", "", "obstacles[1].profile_m: missing"},
+        {"\"points\": 5", "\"points\": 5, \"profile_m\": [[0.1, -0.001]]",
+         "obstacles[0].profile_m: given beside parabola"},
+        {"\"quality_factor\": 30", "\"quality_factor\": 30, \"t60_s\": 1",
+         "body[1].t60_s: given beside quality_factor"},
+        {"\"quality_factor\": 30, ", "", "body[1].t60_s: missing"}};
     for (const Fault& fault : faults) {
         const std::string message = message_of(with(fault.from, fault.to));
         EXPECT_EQ(message.rfind("p.json", 0), 0U) << message;

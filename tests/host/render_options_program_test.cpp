@@ -204,6 +204,8 @@ TEST(RenderOptions, EveryFailureIsOneLineAndLeavesNothing) {
         {{"--quality", "best"}, 2, "best (allowed: live, reference, studio)"},
         {{"--silence", "0"}, 2, "--silence: 0"},
         {{"--stems", folder.file("none/")}, 4, "none/1-bass-fretted-E.wav"},
+        {{"--plot", folder.file("p.pdf")}, 2, "p.pdf (allowed: a name that ends in .svg or .png)"},
+        {{"-"}, 2, "MIDI: - (allowed: standard input only as the one file)"},
         {{good}, 2, "--out"}};
     for (const Refusal& refusal : refusals) {
         std::vector<std::string> arguments{"render",       good, "--preset",
@@ -217,6 +219,30 @@ TEST(RenderOptions, EveryFailureIsOneLineAndLeavesNothing) {
         EXPECT_EQ(ran.out, "");
     }
     EXPECT_EQ(folder.names().size(), written);
+}
+
+TEST(RenderOptions, FilesThatWouldOverwriteOneAnotherAreRefused) {
+    const TemporaryFolder folder;
+    std::vector<std::string> arguments{"render", "-o", folder.file("out")};
+    for (const char* name : {"a", "b", "out"}) std::filesystem::create_directory(folder.file(name));
+    for (const char* name : {"a/song.mid", "b/song.mid"})
+        arguments.push_back(folder.write(name, notes({28})));
+    const Ran same_names = jawari(arguments);
+    EXPECT_EQ(same_names.exit_code, 2);
+    EXPECT_EQ(same_names.error_lines(), 1) << same_names.err;
+    EXPECT_NE(same_names.err.find("b/song.mid (allowed: files of different names"), std::string::npos)
+        << same_names.err;
+    EXPECT_TRUE(std::filesystem::is_empty(folder.file("out")));
+}
+
+TEST(RenderOptions, GuitarModeNeedsThePresetWhoseStringsItIsFor) {
+    const TemporaryFolder folder;
+    const Ran ran = jawari(
+        {"render", folder.write("song.mid", notes({28})), "-o", folder.file("o.wav"), "--guitar-mode", "1"});
+    EXPECT_EQ(ran.exit_code, 2);
+    EXPECT_EQ(ran.error_lines(), 1) << ran.err;
+    EXPECT_NE(ran.err.find("--guitar-mode: 1 (allowed: only with --preset NAME)"), std::string::npos)
+        << ran.err;
 }
 
 }  // namespace

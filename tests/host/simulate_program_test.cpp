@@ -51,6 +51,10 @@ TEST(Simulate, WrongCommandLinesAreOneLineAndExitCode2) {
             "--out: probes.txt (allowed: a name that ends in");
     refused({"simulate", "lab/bass", "--plot", "bass.pdf"}, "--plot: bass.pdf (allowed: a name that ends in");
     refused({"simulate", "lab/bass", "--out", "-", "--stats", "-"}, "--out: - (allowed: another name");
+    refused({"simulate", "lab/bass", "--stats", "a.svg", "--plot", "a.svg"},
+            "--stats: a.svg (allowed: another name than that of --plot)");
+    refused({"simulate", "lab/bass", "--no-skip", "flight,nothing"},
+            "--no-skip: nothing (allowed: all, flight, certificate, near, lazy, sleep)");
 }
 
 TEST(Simulate, HelpAndVersionSucceed) {

@@ -14,7 +14,8 @@ def through_a_pipe(bench):
     for line in ["# a comment", "", f'record start "{wav}"', "note E1 100 0.5", "wait 0.7", "set pan -1", "get pan", "gain -6",
                  "stats", "bogus", "set volume 7", "set nothing 1", "note 200 1 1", "record start x.ogg", "preset no-such",
                  "presets", "monitor on", "note 40 90 0.2", "wait 0.4", "panic", "devices", "help note", "record stop",
-                 "record stop", f'record start "{wav}"', 'get "open']:
+                 "record stop", f'record start "{wav}"', 'get "open', "gain 100", "wait -1", "note E1 100 1e9", "record start",
+                 "record start a.wav b.wav", "record stop a.wav"]:
         player.command(line)
     player.process.stdin.close()  # the end of the commands is the end of the program
     code = player.end(how=None)
@@ -23,7 +24,10 @@ def through_a_pipe(bench):
         assert text in player.out, f"no '{text}' in\n{player.out}"
     for text in ['command: "bogus" (allowed: preset,', "set volume: 7 (allowed: 0 to 1)", 'set: "nothing" (allowed: volume,',
                  'note: KEY: "200" (allowed: a key', 'record start: "x.ogg"', "no-such: no such file, and no preset",
-                 "note on     E2", "nothing is being recorded", "a double quote is left open", "piped.wav"]:
+                 "note on     E2", "nothing is being recorded", "a double quote is left open", "piped.wav",
+                 "gain: 100 (allowed: -120 to 60 dB)", "wait: -1 (allowed: 0 to 3600 seconds)",
+                 "note: SECONDS: 1000000000 (allowed: above 0, to 600)", "record start: no file (allowed: FILE.wav, FILE.mid or both)",
+                 "one .wav and one .mid at most", 'record stop: "a.wav" (allowed: no file)']:
         assert text in player.err, f"no '{text}' in\n{player.err}"
     samples, _ = live_bench.read_float_wav(wav)
     assert abs(samples).max() > 0.01, "the recording is silent"
@@ -45,7 +49,8 @@ def over_the_network(bench):
     path, words = osc.ask("preset", "no-such")[0]
     assert path == "/jawari/error" and words[0] == "preset" and "no preset of that name" in words[1], words
     for verb, *arguments in [("set", "pan", 2.0), ("set", "pan"), ("note", "x", 1, 1), ("nothing",), ("wait", 1.0),
-                             ("gain", float("nan")), ("note", 60, 100, float("inf")), ("monitor", 2), ("record", "stop")]:
+                             ("gain", float("nan")), ("preset", "../sitar.json"),
+                             ("note", 60, 100, float("inf")), ("monitor", 2), ("record", "stop")]:
         path, words = osc.ask(verb, *arguments)[0]
         assert path == "/jawari/error", f"{verb} {arguments}: {path} {words}"
     assert osc.ask("monitor", True) == [("/jawari/reply", ["monitor", "ok"])]
@@ -85,6 +90,7 @@ def refused(bench):
     for arguments, code, text in [
             (["--osc-host", "nowhere", "--osc-port", str(port)], 2, "--osc-host"),
             (["--frames", "8"], 2, "16 to 8192"),
+            (["--move-frets"], 2, "--move-frets: given (allowed: only with --tuning)"),
             (["--audio", "tape"], 2, "--audio"),
             (["--keyboard-map", "x.kbm"], 2, "only with --tuning"),
             (["--guitar-mode", "1"], 2, "only with --preset"),
