@@ -1,4 +1,5 @@
 """Commands through a pipe and as OSC messages; whatever else comes over the network."""
+import json
 import random
 import sys
 import time
@@ -116,11 +117,25 @@ def refused(bench):
     print("refusals: one line and a code each; configuration below the command line")
 
 
+def devices_as_json(bench):
+    ran = bench.run("devices", "--json")
+    assert ran.returncode == 0, ran
+    devices = json.loads(ran.stdout)
+    assert devices["schema"] == "jawari.devices/1"
+    servers = {each["system"]: each for each in devices["audio"]}
+    sound, = servers["jack"]["devices"]
+    assert sound["output_channels"] >= 2 and sound["preferred_rate_hz"] in sound["rates_hz"], sound
+    assert all("problem" in each or each["devices"] for each in devices["audio"]), devices
+    assert all({"system", "inputs"} <= each.keys() for each in devices["midi"]), devices
+    print("devices: the server's, as JSON")
+
+
 def main(program, sender_program):
     with Bench("commands", program, sender_program) as bench:
         through_a_pipe(bench)
         over_the_network(bench)
         refused(bench)
+        devices_as_json(bench)
 
 
 if __name__ == "__main__":
