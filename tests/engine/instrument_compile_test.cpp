@@ -143,6 +143,66 @@ TEST(InstrumentCompile, ContactRateIsRoundedUpToAMultipleOfTheOutputRate) {
     }
 }
 
+/// A diatonic fretboard, as dulcimers have, and one whose frets are where somebody measured them.
+TEST(InstrumentCompile, FretsMayBeUnequalAndAnywhere) {
+    InstrumentDescription bass = bass_instrument();
+    bass.strings.resize(1);
+    const InstrumentStringDescription& string = bass.strings[0];
+    bass.frets.count = 3;
+    bass.frets.semitones = {2, 4, 5};
+    bass.frets.height_m = {-0.001, -0.0015, -0.002};
+    const auto first_partial = [](const InstrumentDescription& described, std::size_t fret) {
+        return compile_instrument(described, 48000).value().strings[0].stopped[fret].string.omega[0] /
+               (2 * pi);
+    };
+    for (std::size_t fret = 1; fret <= 3; ++fret) {
+        const double octaves = bass.frets.semitones[fret - 1] / 12.0;
+        EXPECT_NEAR(stopped_string(bass, 0, fret).length_m, string.length_m * std::pow(0.5, octaves), 1e-12);
+        EXPECT_NEAR(first_partial(bass, fret), string.open_frequency_hz * std::pow(2, octaves), 1e-9);
+    }
+    bass.frets.position_from_nut_m = {0.09, 0.18, 0.22};
+    for (std::size_t fret = 1; fret <= 3; ++fret) {
+        const StringDescription stopped = stopped_string(bass, 0, fret);
+        EXPECT_NEAR(stopped.length_m, string.length_m - bass.frets.position_from_nut_m[fret - 1], 1e-12);
+        ASSERT_EQ(stopped.contacts.size(), 3 - fret);
+        for (std::size_t later = fret + 1; later <= 3; ++later)
+            EXPECT_NEAR(stopped.contacts[later - fret - 1].position_m,
+                        bass.frets.position_from_nut_m[later - 1] - bass.frets.position_from_nut_m[fret - 1],
+                        1e-12);
+    }
+}
+
+TEST(InstrumentCompile, ObstaclesKeepTheirPlaceFromBridgeNutOrStop) {
+    InstrumentDescription bass = bass_instrument();
+    bass.strings.resize(1);
+    bass.frets.height_m.clear();
+    const double length = bass.strings[0].length_m;
+    for (const Origin origin : {Origin::Bridge, Origin::Nut, Origin::Stop}) {
+        for (const std::size_t points : {0U, 6U}) {  // one at each corner, or spread
+            bass.obstacles = {{.name = "wire",
+                               .origin = origin,
+                               .side = Side::Above,
+                               .profile = CornerProfile{{0.3, 0.001}, {0.36, 0.0025}},
+                               .points = points,
+                               .strings = {}}};
+            for (const std::size_t fret : {0U, 5U}) {
+                const StringDescription stopped = stopped_string(bass, 0, fret);
+                EXPECT_GE(stopped.contacts.size(), 2U);
+                EXPECT_LE(stopped.contacts.size(), std::max<std::size_t>(points, 2));
+                for (const ContactDescription& contact : stopped.contacts) {
+                    double distance = contact.position_m;
+                    if (origin == Origin::Bridge) distance = stopped.length_m - contact.position_m;
+                    if (origin == Origin::Nut) distance += length - stopped.length_m;
+                    EXPECT_GE(distance, 0.3 - 1e-12);
+                    EXPECT_LE(distance, 0.36 + 1e-12);
+                    EXPECT_NEAR(contact.height_m, 0.001 + 0.0015 * (distance - 0.3) / 0.06, 1e-12);
+                    EXPECT_EQ(contact.side, Side::Above);
+                }
+            }
+        }
+    }
+}
+
 TEST(InstrumentCompile, RefusesWhatCannotBeBuilt) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const auto place_of = [](auto change, double rate = 48000) {
@@ -177,6 +237,34 @@ TEST(InstrumentCompile, RefusesWhatCannotBeBuilt) {
     EXPECT_EQ(place_of([](D& d) { d.pickups[0].place.from_bridge_m = 0; }),
               "pickups[0].position_from_bridge_m");
     EXPECT_EQ(place_of([](D& d) { d.pickups[0].width_m = -1; }), "pickups[0].width_m");
+    EXPECT_EQ(place_of([](D& d) { d.frets.semitones = {1, 2}; }), "frets.semitones");
+    EXPECT_EQ(place_of([](D& d) { d.frets.position_from_nut_m = {0.1}; }), "frets.position_from_nut_m");
+    const auto with_two_frets = [&](auto change) {
+        return place_of([&](D& d) {
+            d.frets.count = 2;
+            d.frets.height_m.clear();
+            change(d.frets);
+        });
+    };
+    using F = FretsDescription;
+    EXPECT_EQ(with_two_frets([](F& f) { f.semitones = {2, 2}; }), "frets.semitones[1]");
+    EXPECT_EQ(with_two_frets([](F& f) {
+                  f.position_from_nut_m = {0.2, 0.863};
+              }),
+              "frets.position_from_nut_m[1]");
+    EXPECT_EQ(with_two_frets([](F& f) {
+                  f.position_from_nut_m = {0.0, 0.2};
+              }),
+              "frets.position_from_nut_m[0]");
+    EXPECT_EQ(place_of([](D& d) { d.exciters[0].first_string = 2, d.exciters[0].last_string = 1; }),
+              "exciters[0].string_range[1]");
+    EXPECT_EQ(place_of([](D& d) { d.pickups[0].place = {.share = 1}; }), "pickups[0].position_share");
+    EXPECT_EQ(place_of([](D& d) { d.note_frequency_hz.assign(127, 440.0); }), "tuning");
+    EXPECT_EQ(place_of([](D& d) {
+                  d.note_frequency_hz.assign(128, 440.0);
+                  d.note_frequency_hz[60] = 0;
+              }),
+              "tuning[60]");
 }
 
 }  // namespace
