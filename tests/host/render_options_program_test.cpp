@@ -205,7 +205,6 @@ TEST(RenderOptions, EveryFailureIsOneLineAndLeavesNothing) {
         {{"--silence", "0"}, 2, "--silence: 0"},
         {{"--stems", folder.file("none/")}, 4, "none/1-bass-fretted-E.wav"},
         {{"--plot", folder.file("p.pdf")}, 2, "p.pdf (allowed: a name that ends in .svg or .png)"},
-        {{"-"}, 2, "MIDI: - (allowed: standard input only as the one file)"},
         {{good}, 2, "--out"}};
     for (const Refusal& refusal : refusals) {
         std::vector<std::string> arguments{"render",       good, "--preset",
@@ -232,6 +231,11 @@ TEST(RenderOptions, FilesThatWouldOverwriteOneAnotherAreRefused) {
     EXPECT_EQ(same_names.error_lines(), 1) << same_names.err;
     EXPECT_NE(same_names.err.find("b/song.mid (allowed: files of different names"), std::string::npos)
         << same_names.err;
+
+    arguments.back() = "-";
+    const Ran piped = jawari(arguments);
+    EXPECT_EQ(piped.exit_code, 2);
+    EXPECT_EQ(piped.err, "MIDI: - (allowed: standard input only as the one file)\n");
     EXPECT_TRUE(std::filesystem::is_empty(folder.file("out")));
 }
 
