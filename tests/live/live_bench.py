@@ -282,7 +282,7 @@ def read_midi_frames(path):
 
 
 def read_float_wav(path):
-    """Samples and the length that the header states, in frames."""
+    """Samples (frames, channels) and the sampling rate [Hz]."""
     from play import read_wav
     samples, rate_hz = read_wav(path)
     return samples, rate_hz
