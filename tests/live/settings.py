@@ -1,4 +1,4 @@
-"""What playing is started with: a tuning, a MIDI map, guitar mode; and the presets that program changes ask for."""
+"""What playing is started with: tuning, MIDI map, bend range, guitar mode; and the presets that program changes ask for."""
 import json
 import sys
 import time
@@ -10,6 +10,15 @@ import estimate  # of tests/presets, where live_bench finds it
 from live_bench import Bench
 
 
+def frequencies_of(wav, about_hz):
+    """First partials of notes that begin 1.2 s apart."""
+    samples, rate_hz = live_bench.read_float_wav(wav)
+    mono = samples.mean(axis=1)
+    begin_s = np.flatnonzero(np.abs(mono) > 0.05 * np.abs(mono).max())[0] / rate_hz + 0.1
+    passages = [mono[int((begin_s + 1.2 * n) * rate_hz):int((begin_s + 1.2 * n + 0.7) * rate_hz)] for n in range(len(about_hz))]
+    return [estimate.measure(passage, near_hz, near_hz, rate_hz).frequency_hz for passage, near_hz in zip(passages, about_hz)]
+
+
 def an_octave_of(bench, *arguments):
     """Cents between A2 and A3, as the recording has them."""
     wav = bench.path("tuned.wav")
@@ -19,14 +28,8 @@ def an_octave_of(bench, *arguments):
         player.command(line)
     player.process.stdin.close()
     assert player.end(how=None) == 0, player.err
-    samples, rate_hz = live_bench.read_float_wav(wav)
-    mono = samples.mean(axis=1)
-    begin_s = np.flatnonzero(np.abs(mono) > 0.05 * np.abs(mono).max())[0] / rate_hz
-    frequencies_hz = []
-    for first_s, about_hz in ((0.1, 110), (1.3, 220)):
-        passage = mono[int((begin_s + first_s) * rate_hz):int((begin_s + first_s + 0.7) * rate_hz)]
-        frequencies_hz.append(estimate.measure(passage, about_hz, about_hz, rate_hz).frequency_hz)
-    return estimate.cents(frequencies_hz[1], frequencies_hz[0])
+    low, high = frequencies_of(wav, (110, 220))
+    return estimate.cents(high, low)
 
 
 def tuned(bench):
@@ -48,7 +51,7 @@ def mapped(bench):
     with open(table, "w", encoding="utf-8") as file:
         json.dump({"schema": "jawari.midi-map/1",
                    "bindings": [{"controller": 20, "parameter": "pan", "from": -0.5, "to": 0.5, "curve": "linear"}]}, file)
-    player = bench.play("--preset", "bass-fretted", "--midi", "jack", "--midi-map", table, "--set", "bend_range=7", commands=True)
+    player = bench.play("--preset", "guitar-nylon", "--midi", "jack", "--midi-map", table, commands=True)
     keyboard = bench.sender()
     player.expect_keyboard("keyboard")
     keyboard.send([(0, (0xB0, 20, 127))])
@@ -57,11 +60,26 @@ def mapped(bench):
         assert time.monotonic() < deadline, player.out + player.err
         player.command("get pan")
         time.sleep(0.1)
-    player.command("set bend_range 2")
-    player.expect("bend_range: set by RPN 0, or --set when jawari play starts")
     player.end()
     keyboard.end()
     print("MIDI map: the controller turns its parameter")
+
+
+def bent(bench):
+    wav = bench.path("bent.wav")
+    player = bench.play("--preset", "guitar-nylon", "--midi", "jack", "--set", "bend_range=5", "--record", wav, commands=True)
+    keyboard = bench.sender()
+    player.expect_keyboard("keyboard")
+    player.command("set bend_range 2")
+    player.expect("bend_range: set by RPN 0, or --set when jawari play starts")
+    keyboard.send([(0, (0xE0, 127, 127)), (100, (0x90, 45, 90)), (1200, (0x80, 45, 64))])
+    time.sleep(1.6)
+    player.end()
+    keyboard.end()
+    frequency_hz, = frequencies_of(wav, (110 * 2**(5 / 12),))
+    cents = estimate.cents(frequency_hz, 110)
+    assert abs(cents - 500) < 2, cents
+    print(f"bend range: the wheel's end is {cents:.2f} cents up")
 
 
 def guitar(bench):
@@ -102,6 +120,7 @@ def main(program, sender_program):
     with Bench("settings", program, sender_program) as bench:
         tuned(bench)
         mapped(bench)
+        bent(bench)
         guitar(bench)
         programs(bench)
 
