@@ -69,6 +69,16 @@ def check_silence_before(samples, played):
     return first
 
 
+def place_of(pattern, samples):
+    """Where the samples differ least from the pattern, in least squares. The largest correlation would do for a pattern
+    that is heard once; here the same key is played again later, and louder."""
+    size = 1 << (len(samples) + len(pattern)).bit_length()
+    correlation = np.fft.irfft(np.fft.rfft(samples, size) * np.conj(np.fft.rfft(pattern, size)))
+    energy = np.concatenate([[0], np.cumsum(samples ** 2)])
+    places = len(samples) - len(pattern) + 1
+    return int(np.argmin(energy[len(pattern):] - energy[:places] - 2 * correlation[:places]))
+
+
 def check_loudspeaker(heard_path, recorded):
     """What went to JACK, taken down by JACK's own recorder, is what the program recorded, a constant delay apart."""
     import soundfile_reader
@@ -76,12 +86,24 @@ def check_loudspeaker(heard_path, recorded):
     mono = recorded[:, 0]
     start = int(np.argmax(np.abs(mono) > 0.01))
     pattern = mono[start:start + RATE_HZ // 2]
-    spectrum = np.fft.irfft(np.fft.rfft(heard, 2 ** 21) * np.conj(np.fft.rfft(pattern, 2 ** 21)))
-    shift = int(np.argmax(spectrum[:len(heard)])) - start
+    shift = place_of(pattern, heard) - start
     length = min(len(mono) - start, len(heard) - start - shift)
-    error = np.abs(heard[start + shift:start + shift + length] - mono[start:start + length]).max()
-    assert error < 2.0 / 32768, f"JACK heard something else: {error}"
+    error = np.abs(heard[start + shift:start + shift + length] - mono[start:start + length])
+    assert error.max() < 2.0 / 32768, (
+        f"JACK heard something else: off by up to {error.max():.3g}, first {np.argmax(error >= 2.0 / 32768)} frames after "
+        f"the first sound, {shift} frames apart")
     return length / RATE_HZ
+
+
+def start_recorder(bench, path, seconds):
+    """JACK's recorder, listening to the program when this returns. Its buffer holds the whole take (-B): it loses sound
+    otherwise when the disk is slow for a third of a second."""
+    recorder = subprocess.Popen(["jack_rec", "-f", path, "-d", str(seconds), "-B", str(seconds * RATE_HZ), "-b", "16",
+                                 "jawari:outport 0"],
+                                env=bench.environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    bench.children.append(recorder)
+    live_bench.wait_until(lambda: "jackrec" in bench.tool("jack_lsp", "-c", "jawari:outport 0").stdout, "jack_rec")
+    return recorder
 
 
 class MachineGaps:
@@ -107,13 +129,12 @@ class Performance:
         player = bench.play("--preset", PRESET, "--fixed-quality", "--audio", "jack", "--midi", "jack", "--midi-in", "keyboard", "--osc-port",
                             str(port), "--record", wav, "--record-midi", self.midi, "--force")
         player.expect_keyboard("keyboard")
-        recorder = subprocess.Popen(["jack_rec", "-f", self.heard, "-d", str(int(seconds) + 2), "-b", "16", "jawari:outport 0"],
-                                    env=bench.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        bench.children.append(recorder)
+        recorder = start_recorder(bench, self.heard, int(seconds) + 2)
         self.messages = score(seconds)
         watch = MachineGaps(bench, gaps_program)
         self.sent_s = keyboard.send(self.messages)
-        recorder.wait(timeout=30)
+        said = recorder.communicate(timeout=seconds + 30)[0]
+        assert recorder.returncode == 0, f"jack_rec: {said}"
         self.machine_gap_ms = watch.end()
         self.stats = Osc(port).values("stats")
         assert player.end() == 0, player.err
