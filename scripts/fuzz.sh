@@ -34,13 +34,13 @@ if ((${#targets[@]} == 0)); then
 fi
 export UBSAN_OPTIONS=print_stacktrace=1
 
-# Adds to the seeds what they do not reach, under names that say what it is from.
+# Adds to the seeds as few inputs as reach all code that they do not reach, under names that say what they are from.
 merge_found() {
     local name=$1 merged=build/fuzz/merged_$1 file
     rm -rf "$merged"
     mkdir -p "$merged" "tests/fuzz/seeds/$name"
     cp "build/asan-ubsan/seeds/$name"/* "$merged"
-    build/asan-ubsan/bin/fuzz_"$name" -merge=1 "$merged" "build/fuzz/$name" 2> /dev/null
+    build/asan-ubsan/bin/fuzz_"$name" -set_cover_merge=1 -use_counters=0 "$merged" "build/fuzz/$name" 2> /dev/null
     for file in "$merged"/*; do
         [[ -e build/asan-ubsan/seeds/$name/${file##*/} ]] || cp "$file" "tests/fuzz/seeds/$name/found-${file##*/}"
     done
