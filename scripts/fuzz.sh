@@ -44,6 +44,7 @@ merge_found() {
     for file in "$merged"/*; do
         [[ -e build/asan-ubsan/seeds/$name/${file##*/} ]] || cp "$file" "tests/fuzz/seeds/$name/found-${file##*/}"
     done
+    rm -r "$merged"
 }
 
 failed=0
