@@ -59,8 +59,14 @@ for name in "${targets[@]}"; do
         tee "$log" >&2 || status=$?
     runs=$(sed -n 's/^stat::number_of_executed_units: //p' "$log" | tail -1)
     reached=$(grep -o 'cov: [0-9]*' "$log" | tail -1 | cut -d' ' -f2 || true)
-    echo "$name: ${runs:-?} inputs in $((SECONDS - begin)) s, ${reached:-?} edges reached, $(find "$corpus" -type f | wc -l) kept, $(
-        ((status == 0)) && echo "nothing found" || echo "FOUND: $(grep -o "build/fuzz/$name-[a-z]*-[0-9a-f]*" "$log" | tail -1)")"
+    outcome="nothing found"
+    if ((status != 0)); then
+        found=$(grep -o "build/fuzz/$name-[a-z]*-[0-9a-f]*" "$log" | tail -1 || true)
+        outcome=${found:+FOUND: $found}
+        outcome=${outcome:-ended with $status}
+    fi
+    echo "$name: ${runs:-?} inputs in $((SECONDS - begin)) s, ${reached:-?} edges reached, $(
+        find "$corpus" -type f | wc -l) kept, $outcome"
     ((status == 0)) || failed=1
     if $merge; then merge_found "$name"; fi
 done
