@@ -1,8 +1,10 @@
 """A sound server without hardware, a keyboard made of text, and the program between them.
 
-Each test has a server of its own name, so that tests may run side by side. Without jackd there is nothing to test:
-exit code 77, which CTest takes for skipped.
+Each test has a server of its own name. Still only one runs at a time: JACK names the socket of a client after the client
+and the user, not after the server, so that programs of one name at two servers take it away from each other, and a server
+turns one of them down. Without jackd there is nothing to test: exit code 77, which CTest takes for skipped.
 """
+import fcntl
 import json
 import os
 import pathlib
@@ -39,6 +41,14 @@ def wait_until(condition, what, patience_s=PATIENCE_S):
         time.sleep(0.02)
 
 
+def wait_for_other_benches():
+    """Returns a file that keeps other servers of this user's tests waiting, also those of another checkout, until it is
+    closed."""
+    lock = open(pathlib.Path(tempfile.gettempdir()) / f"jawari-live-{os.getuid()}.lock", "w")
+    fcntl.flock(lock, fcntl.LOCK_EX)
+    return lock
+
+
 class Bench:
     """jackd with the dummy driver, and a folder for files. `with Bench("name") as bench`."""
 
@@ -54,19 +64,23 @@ class Bench:
     def __enter__(self):
         if shutil.which("jackd") is None:
             skip("jackd is not installed (scripts/setup.sh)")
+        self.lock = wait_for_other_benches()
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="jawari-live-"))
         self.environment = {**os.environ, **ENVIRONMENT, "JACK_DEFAULT_SERVER": self.server_name,
                             "XDG_CONFIG_HOME": str(self.folder), "XDG_STATE_HOME": str(self.folder)}
         self.start_server()
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, problem, *_):
+        codes = [child.poll() for child in self.children]
         for child in self.children:
-            if child.poll() is None:
-                child.kill()
+            child.kill()
             child.wait()
         self.stop_server()
+        if problem is not None:
+            print(f"jackd: {self.server_said()}\nprograms' exit codes: {codes}", file=sys.stderr)
         shutil.rmtree(self.folder, ignore_errors=True)
+        self.lock.close()
 
     def start_server(self):
         """With real-time priority if that is allowed. Synchronous (-S): a client that the machine kept waiting makes the
@@ -81,11 +95,15 @@ class Bench:
             if waited.returncode == 0 and self.server.poll() is None:
                 return
             self.stop_server()
-        skip("jackd does not start: " + (self.folder / "jackd.log").read_text().strip().replace("\n", "; ")[-300:])
+        skip("jackd does not start: " + self.server_said())
 
     def stop_server(self, how=signal.SIGTERM):
         self.server.send_signal(how)
         self.server.wait()
+
+    def server_said(self):
+        """The end of it, on one line."""
+        return (self.folder / "jackd.log").read_text().strip().replace("\n", "; ")[-600:]
 
     def path(self, name):
         return str(self.folder / name)
