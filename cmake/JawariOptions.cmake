@@ -1,13 +1,16 @@
 # Compile options shared by every target of the project.
 add_library(jawari_options INTERFACE)
-target_compile_options(jawari_options INTERFACE -Wall -Wextra -Wconversion -Wshadow
-                       # Fused multiply-adds are written where they are wanted (kernels), never left to the compiler.
-                       -ffp-contract=off)
-# GCC 12 takes `"text" + std::string` for an overlapping copy (GCC bug 105651).
-target_compile_options(jawari_options INTERFACE
-  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+if(MSVC)
+  # /fp:precise: fused multiply-adds are written where they are wanted (kernels), never left to the compiler.
+  target_compile_options(jawari_options INTERFACE /W4 /fp:precise /utf-8)
+else()
+  target_compile_options(jawari_options INTERFACE -Wall -Wextra -Wconversion -Wshadow -ffp-contract=off)
+  # GCC 12 takes `"text" + std::string` for an overlapping copy (GCC bug 105651).
+  target_compile_options(jawari_options INTERFACE
+    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+endif()
 if(JAWARI_WARNINGS_AS_ERRORS)
-  target_compile_options(jawari_options INTERFACE -Werror)
+  target_compile_options(jawari_options INTERFACE $<IF:$<CXX_COMPILER_ID:MSVC>,/WX,-Werror>)
 endif()
 if(JAWARI_SANITIZE)
   add_compile_options(-fsanitize=${JAWARI_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)

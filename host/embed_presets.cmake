@@ -1,4 +1,4 @@
-# Writes a C++ source with the text of every presets/KIND/**/NAME.json, as read by common/builtin.h.
+# Writes a C++ source with the text of every presets/KIND/**/NAME.json, as read by base/builtin.h.
 function(jawari_embed_presets OUTPUT)
   set(root ${PROJECT_SOURCE_DIR}/presets)
   file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${root} ${root}/*.json)
@@ -16,7 +16,7 @@ function(jawari_embed_presets OUTPUT)
     string(APPEND table "    {\"${kind}\", \"${name}\", R\"preset(${text})preset\"},\n")
   endforeach()
   string(CONCAT source
-    "// Generated from presets/. Do not edit.\n#include \"common/builtin.h\"\n\n#include <cstddef>\n\nnamespace jawari::host {\n\n"
+    "// Generated from presets/. Do not edit.\n#include \"base/builtin.h\"\n\n#include <cstddef>\n\nnamespace jawari::host {\n\n"
     "extern const BuiltinFile builtin_table[];\nextern const std::size_t builtin_table_size;\n\n"
     "const BuiltinFile builtin_table[] = {\n${table}};\n"
     "const std::size_t builtin_table_size = sizeof(builtin_table) / sizeof(builtin_table[0]);\n\n"

@@ -5,15 +5,16 @@
 #include <new>
 #include <string>
 
-#include "common/command.h"
-#include "common/interrupt.h"
-#include "info/info_command.h"
-#include "latency/latency_command.h"
+#include "base/interrupt.h"
+#include "cli/command.h"
+#include "commands/bench_latency/latency_command.h"
+#include "commands/info/info_command.h"
 #ifdef JAWARI_LIVE
-#include "play/play_command.h"
+#include "commands/play/play_command.h"
 #endif
-#include "render/render_command.h"
-#include "simulate/simulate_command.h"
+#include "commands/render/render_command.h"
+#include "commands/simulate/simulate_command.h"
+#include "jawari/version.h"
 
 namespace jawari::host {
 namespace {

@@ -2,7 +2,7 @@
 # Runs the benchmarks and writes docs/benchmarks.md, its CSV files (docs/benchmarks/) and plots (docs/images/benchmarks/).
 # Usage: scripts/bench.sh [STAGE...]     without stages: all of them, in less than an hour on two cores
 #   Stages: accuracy convergence work-precision siconos peers cost instructions speed plots page
-#   Only if named: latency (live playing, docs/live-engine.md; a million blocks each, hours)
+#   Only if named: latency (live playing, docs/player/player.md; a million blocks each, hours)
 # The reference solutions are files; benchmarks/reference/make_references.py remakes them.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."

@@ -14,8 +14,8 @@ ln -s /usr/include/hwy /usr/include/eigen3/Eigen "$objects/include/"
 compile() {
     local name=$1
     shift
-    printf '%s\n' engine/src/*.cpp | xargs -P "$(nproc)" -I{} \
-        sh -c 'source=$1; object=$2/$(basename "$source").o; shift 2; "$@" -c "$source" -o "$object"' _ {} "$objects" \
+    find engine/src -name '*.cpp' | xargs -P "$(nproc)" -I{} \
+        sh -c 'source=$1; object=$2/$(echo "$source" | tr / _).o; shift 2; "$@" -c "$source" -o "$object"' _ {} "$objects" \
         "$@" -std=c++20 -O1 -Wall -Wextra -Wconversion -Wshadow -Werror -ffp-contract=off \
         -Iengine/include -Iengine/src -isystem "$objects/include"
     echo "$name: $(find engine/src -name '*.cpp' | wc -l) sources compile"
@@ -23,5 +23,5 @@ compile() {
 
 # As engine/CMakeLists.txt has it for this processor.
 compile NEON aarch64-linux-gnu-g++ '-DHWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)'
-nm -C "$objects/near_kernels.cpp.o" | grep -q 'N_NEON::run_modes' || { echo "check_neon.sh: no NEON kernels" >&2; exit 1; }
+nm -C "$objects/engine_src_string_kernels_mode_run.cpp.o" | grep -q 'N_NEON::run_modes' || { echo "check_neon.sh: no NEON kernels" >&2; exit 1; }
 compile scalar g++ -DHWY_COMPILE_ONLY_SCALAR

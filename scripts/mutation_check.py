@@ -51,11 +51,9 @@ def configure():
 
 
 def suites_near(file):
-    """Test suites of the engine's file, or else of those that share the first word of its name."""
-    tests = ROOT / "tests/engine"
-    stem = pathlib.Path(file).stem
-    near = [*tests.glob(f"{stem}_test.cpp"), *tests.glob(f"{stem}_*_test.cpp")]
-    near = near or tests.glob(f"{stem.split('_')[0]}_*test.cpp")
+    """Test suites of the engine's file, or else of the files in its folder."""
+    folder = ROOT / "tests/engine" / pathlib.Path(file).parent.relative_to("engine/src" if "src" in file else "engine/include/jawari")
+    near = list(folder.glob(f"{pathlib.Path(file).stem}_test.cpp")) or folder.glob("*_test.cpp")
     return sorted({suite for path in near
                    for suite in re.findall(r"^TEST(?:_[FP])?\((\w+),", path.read_text(encoding="utf-8"), re.MULTILINE)})
 

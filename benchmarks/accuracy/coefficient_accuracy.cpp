@@ -7,9 +7,9 @@
 #include <limits>
 #include <random>
 
-#include "high_precision.h"
-#include "jawari/step_coefficients.h"
+#include "jawari/detail/step_coefficients.h"
 #include "rivals.h"
+#include "support/high_precision.h"
 
 namespace {
 

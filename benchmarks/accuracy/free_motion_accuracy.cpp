@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <cstdio>
 
-#include "high_precision.h"
-#include "jawari/modes.h"
-#include "jawari/step_coefficients.h"
+#include "jawari/detail/step_coefficients.h"
+#include "jawari/scene/modes.h"
+#include "support/high_precision.h"
 
 namespace {
 

@@ -7,9 +7,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "common/cpu_clock.h"
+#include "base/cpu_clock.h"
+#include "formats/scene/read_scene.h"
 #include "jawari/jawari.h"
-#include "scene/read_scene.h"
 
 namespace jawari::benchmarks {
 namespace {

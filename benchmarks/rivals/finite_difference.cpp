@@ -5,7 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "jawari/modes.h"
+#include "jawari/scene/modes.h"
 #include "repeat.h"
 
 namespace jawari::rivals {

@@ -2,7 +2,7 @@
 // section 7.3) whose contacts are solved by energy quadratisation (quadratised_contact.h).
 #pragma once
 
-#include "jawari/description.h"
+#include "jawari/scene/description.h"
 #include "quadratised_contact.h"
 #include "trajectory.h"
 

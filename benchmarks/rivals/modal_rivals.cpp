@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "hunt_crossley.h"
-#include "jawari/compile.h"
+#include "jawari/scene/compile.h"
 #include "repeat.h"
 
 namespace jawari::rivals {

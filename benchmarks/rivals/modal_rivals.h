@@ -2,7 +2,7 @@
 // (hunt_crossley.h) and energy quadratisation (quadratised_contact.h, the modal variant of JASA 2021).
 #pragma once
 
-#include "jawari/description.h"
+#include "jawari/scene/description.h"
 #include "quadratised_contact.h"
 #include "trajectory.h"
 

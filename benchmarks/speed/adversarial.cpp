@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/cpu_clock.h"
-#include "common/denormals.h"
+#include "base/cpu_clock.h"
+#include "jawari/denormals.h"
 #include "jawari/jawari.h"
 #include "scenes.h"
 
@@ -28,7 +28,7 @@ struct BlockTimes {
 };
 
 BlockTimes measure_blocks(const SceneModel& model, double sound_s) {
-    const host::NoDenormals guard;  // as jawari plays
+    const NoDenormals guard;  // as jawari plays
     const auto blocks = static_cast<std::size_t>(sound_s * output_rate_hz / block_frames);
     BlockTimes times;
     times.least.assign(blocks, 1e9);

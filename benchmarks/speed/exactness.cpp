@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "agreement.h"
-#include "common/denormals.h"
+#include "jawari/denormals.h"
 #include "jawari/jawari.h"
 #include "scenes.h"
+#include "support/agreement.h"
 
 namespace jawari::benchmarks {
 namespace {
@@ -34,7 +34,7 @@ bool print_row(const std::string& scene, ImpactLaw law, double restitution, doub
 }
 
 bool print_scene(const std::string& scene, double sound_s, double highest_rate_hz) {
-    const host::NoDenormals guard;  // as jawari simulates
+    const NoDenormals guard;  // as jawari simulates
     std::printf("`%s`, %g s\n\n", scene.c_str(), sound_s);
     std::puts(
         "| law | e | contact rate (MHz) | difference | between uniform runs | impulses | without skipping | "

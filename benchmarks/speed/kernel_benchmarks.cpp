@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <chrono>
 
-#include "flight_kernels.h"
 #include "fma_peak.h"
+#include "formats/scene/read_scene.h"
 #include "jawari/jawari.h"
-#include "kernels.h"
-#include "near_kernels.h"
-#include "scene/read_scene.h"
-#include "skipping_kernels.h"
+#include "string/kernels/flight.h"
+#include "string/kernels/mode_bounds.h"
+#include "string/kernels/mode_run.h"
+#include "string/kernels/mode_sums.h"
 
 namespace jawari::benchmarks {
 namespace {

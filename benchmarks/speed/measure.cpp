@@ -4,8 +4,8 @@
 #include <limits>
 #include <vector>
 
-#include "common/cpu_clock.h"
-#include "common/denormals.h"
+#include "base/cpu_clock.h"
+#include "jawari/denormals.h"
 
 namespace jawari::benchmarks {
 namespace {
@@ -30,7 +30,7 @@ Counters counters_of(const SceneState& state) {
 Measurement measure(const SceneModel& model, double sound_s, const Skipping& skipping, double skip_s,
                     int repetitions) {
     // Uniform stepping would crawl through numbers that skipping never meets.
-    const host::NoDenormals guard;
+    const NoDenormals guard;
     const auto frames_in = [&](double seconds) {
         return static_cast<std::size_t>(seconds * model.output_rate_hz);
     };

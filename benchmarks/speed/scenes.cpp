@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "jawari/obstacles.h"
-#include "scene/read_scene.h"
+#include "formats/scene/read_scene.h"
+#include "jawari/scene/obstacles.h"
 
 namespace jawari::benchmarks {
 namespace {

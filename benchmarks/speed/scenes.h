@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "jawari/description.h"
+#include "jawari/scene/description.h"
 
 namespace jawari::benchmarks {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "common/cpu_clock.h"
-#include "common/denormals.h"
+#include "base/cpu_clock.h"
+#include "jawari/denormals.h"
 #include "trajectory.h"
 
 namespace jawari::benchmarks {
@@ -15,7 +15,7 @@ namespace jawari::benchmarks {
 /// processor.
 template <class Prepare, class Run>
 double least_cpu_s(const Repetition& repetition, Prepare&& prepare, Run&& run) {
-    const host::NoDenormals guard;
+    const NoDenormals guard;
     double least = std::numeric_limits<double>::infinity(), total = 0;
     for (int i = 0; i < repetition.most && (i == 0 || total < repetition.enough_s); ++i) {
         prepare();

@@ -8,8 +8,8 @@
 
 #include "engine_methods.h"
 #include "finite_difference.h"
+#include "formats/scene/read_scene.h"
 #include "modal_rivals.h"
-#include "scene/read_scene.h"
 #include "trajectory.h"
 
 namespace jawari::benchmarks {

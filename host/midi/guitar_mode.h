@@ -1,8 +1,8 @@
 // Guitar mode: one string (or course) a channel, as MIDI guitars send.
 #pragma once
 
-#include "common/error.h"
-#include "jawari/instrument_description.h"
+#include "base/error.h"
+#include "jawari/instrument/description.h"
 #include "midi/interpreter.h"
 
 namespace jawari::host {

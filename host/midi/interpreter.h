@@ -1,11 +1,11 @@
 // MIDI channel messages -> instrument events: controllers, bends in semitones, modes, MPE, guitar mode. Plain
-// state and functions that never allocate, for the audio thread and for files alike (docs/midi.md).
+// state and functions that never allocate, for the audio thread and for files alike (docs/formats/midi.md).
 #pragma once
 
 #include <array>
 #include <cstddef>
 
-#include "jawari/instrument_render.h"
+#include "jawari/instrument/render.h"
 #include "jawari/realtime.h"
 #include "midi/channel_message.h"
 #include "midi/midi_map.h"

@@ -4,10 +4,10 @@
 #include <string_view>
 #include <vector>
 
-#include "common/input_file.h"
-#include "common/text.h"
-#include "json/object_reader.h"
-#include "json/parse.h"
+#include "base/input_file.h"
+#include "base/text.h"
+#include "formats/json/object_reader.h"
+#include "formats/json/parse.h"
 
 namespace jawari::host {
 

@@ -1,9 +1,9 @@
-// MIDI map files ("jawari.midi-map/1", docs/midi.md): which controller moves which parameter.
+// MIDI map files ("jawari.midi-map/1", docs/formats/midi.md): which controller moves which parameter.
 #pragma once
 
 #include <string>
 
-#include "common/error.h"
+#include "base/error.h"
 #include "midi/midi_map.h"
 
 namespace jawari::host {

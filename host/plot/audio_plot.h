@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "common/error.h"
+#include "base/error.h"
 
 namespace jawari::host {
 

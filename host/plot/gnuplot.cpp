@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "common/output_file.h"
+#include "base/output_file.h"
 
 namespace jawari::host::plot {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/error.h"
+#include "base/error.h"
 
 namespace jawari::host::plot {
 

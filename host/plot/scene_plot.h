@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "common/error.h"
-#include "simulate/recording.h"
+#include "base/error.h"
+#include "plot/recording.h"
 
 namespace jawari::host {
 

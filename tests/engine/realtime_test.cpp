@@ -10,12 +10,12 @@
 #include <memory>
 #include <vector>
 
-#include "excitation.h"
 #include "jawari/jawari.h"
-#include "scenes.h"
-#include "small_instrument.h"
+#include "string/state/excitation.h"
+#include "support/scenes.h"
+#include "support/small_instrument.h"
 
-#include "../realtime_traps.h"
+#include "realtime_traps.h"
 
 #ifdef JAWARI_TRAPS
 

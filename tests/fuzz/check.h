@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "common/error.h"
+#include "base/error.h"
 
 namespace jawari::fuzz {
 

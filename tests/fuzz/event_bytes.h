@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "jawari/instrument_render.h"
+#include "jawari/instrument/render.h"
 
 namespace jawari::fuzz {
 

@@ -9,14 +9,14 @@
 #include <optional>
 #include <vector>
 
-#include "../engine/injure.h"
-#include "../engine/small_instrument.h"
 #include "check.h"
-#include "common/denormals.h"
 #include "event_bytes.h"
 #include "instrument_watch.h"
-#include "jawari/instrument_rungs.h"
+#include "jawari/denormals.h"
+#include "jawari/instrument/qualities.h"
 #include "sound.h"
+#include "support/injure.h"
+#include "support/small_instrument.h"
 
 namespace {
 
@@ -159,7 +159,7 @@ void require_same(const std::vector<double>& a, const std::vector<double>& b) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const fuzz::Performance performance = fuzz::performance_of({data, size});
     const Fuzzed& fuzzed = instrument_of(performance.instrument);
-    std::optional<host::NoDenormals> guard;  // as jawari plays and renders; embedders may not
+    std::optional<NoDenormals> guard;  // as jawari plays and renders; embedders may not
     if (!performance.denormals) guard.emplace();
     InstrumentState state = make_instrument_state(fuzzed.model);
     if (performance.guitar) state.play = PlayMode::Guitar;

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "check.h"
-#include "tuning/tuning.h"
+#include "formats/tuning/tuning.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace jawari;

@@ -2,7 +2,7 @@
 #include <cstdint>
 
 #include "check.h"
-#include "midi/midi_file.h"
+#include "formats/midi_file/midi_file.h"
 
 namespace {
 

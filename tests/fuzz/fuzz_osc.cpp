@@ -4,7 +4,7 @@
 #include <string>
 
 #include "check.h"
-#include "play/osc_message.h"
+#include "commands/play/osc_message.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace jawari;

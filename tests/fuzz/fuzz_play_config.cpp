@@ -4,8 +4,8 @@
 #include <string>
 
 #include "check.h"
-#include "play/options.h"
-#include "render/options.h"
+#include "commands/play/options.h"
+#include "commands/render/options.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "check.h"
-#include "jawari/instrument_render.h"
-#include "preset/read_preset.h"
+#include "formats/preset/read_preset.h"
+#include "jawari/instrument/render.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "check.h"
+#include "formats/scene/read_scene.h"
 #include "jawari/jawari.h"
-#include "scene/read_scene.h"
 
 namespace {
 

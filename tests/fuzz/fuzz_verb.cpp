@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "check.h"
-#include "play/completion.h"
-#include "play/verbs.h"
+#include "commands/play/completion.h"
+#include "commands/play/verbs.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace jawari;

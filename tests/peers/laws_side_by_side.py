@@ -6,7 +6,7 @@ and how deep it goes into its obstacles.
     laws_side_by_side.py --jawari ... --scene scenes/fretted_bass.json --check
 
 Prints a row for each law and restitution. *Injected* is the sum of what impacts added to the energy in the steps in which
-they added any; *H* the discrete energy (docs/model.md), computed for Siconos from its modal state. Both start from rest
+they added any; *H* the discrete energy (docs/engine/model.md), computed for Siconos from its modal state. Both start from rest
 with the same modal shape. With --check nothing but a verdict is printed, and the exit code is 1 unless Siconos injects energy
 for some e and penetrates with e = 1, while no other law than `newton` injects any and `signorini` never penetrates.
 """

@@ -1,6 +1,6 @@
 """What a preset file promises: which notes it has, at which pitch, how fast each partial dies. Read from the file alone.
 
-The formulas are those of docs/preset-format.md, written here once more and independently of the engine.
+The formulas are those of docs/formats/preset.md, written here once more and independently of the engine.
 """
 import copy
 import json

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <string>
 
-#include "common/denormals.h"
+#include "jawari/denormals.h"
 #include "long_play.h"
 #include "phase_drift.h"
 
@@ -72,7 +72,7 @@ int run_play(const Options& options) {
 }
 
 int run_steps(const Options& options, Advance advance) {
-    const host::NoDenormals guard;
+    const NoDenormals guard;
     const PhaseDrift drift = run_phase_drift(options.steps, advance, [&](std::uint64_t done) {
         if (done % 42000000 == 0)
             std::fprintf(stderr, "%llu of %llu steps\n", static_cast<unsigned long long>(done),

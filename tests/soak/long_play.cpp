@@ -9,9 +9,9 @@
 
 #include <unistd.h>
 
-#include "common/cpu_clock.h"
-#include "common/denormals.h"
-#include "live/player.h"
+#include "base/cpu_clock.h"
+#include "jawari/denormals.h"
+#include "player/player.h"
 
 namespace jawari::soak {
 namespace {
@@ -185,7 +185,7 @@ Minute mean_of(std::vector<Minute>::const_iterator begin, std::size_t count) {
 
 LongPlay play_long(const host::SharedInstrument& instrument, double rate_hz, std::uint64_t minutes,
                    const std::function<bool(const LongPlay&)>& goes_on) {
-    const host::NoDenormals guard;  // as jawari plays
+    const NoDenormals guard;  // as jawari plays
     LongPlay played;
     played.minutes.reserve(minutes);  // what grows must be the player's
     const double start_s = host::thread_cpu_s();

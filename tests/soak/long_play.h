@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/instrument_cache.h"
+#include "instrument/instrument_cache.h"
 
 namespace jawari::soak {
 

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "../engine/high_precision.h"
 #include "jawari/jawari.h"
+#include "support/high_precision.h"
 
 namespace jawari::soak {
 namespace {

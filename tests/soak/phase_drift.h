@@ -8,7 +8,7 @@
 
 namespace jawari::soak {
 
-/// Step by step, or whole frames by their closed form P^m (docs/model.md).
+/// Step by step, or whole frames by their closed form P^m (docs/engine/model.md).
 enum class Advance { Steps, Frames };
 
 /// Against the exact solution at the model's own omega, sigma and h, in 100-digit arithmetic.

@@ -5,9 +5,9 @@
 #include <variant>
 
 #include "hostile_scene.h"
-#include "jawari/compile.h"
-#include "jawari/energy.h"
-#include "jawari/render.h"
+#include "jawari/scene/compile.h"
+#include "jawari/scene/energy.h"
+#include "jawari/scene/render.h"
 
 namespace jawari::stress {
 namespace {

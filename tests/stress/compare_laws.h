@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "jawari/description.h"
+#include "jawari/scene/description.h"
 
 namespace jawari::stress {
 

@@ -1,4 +1,4 @@
-// What docs/stability.md says of the laws, on strings that nobody touches.
+// What docs/engine/stability.md says of the laws, on strings that nobody touches.
 #include "compare_laws.h"
 
 #include <gtest/gtest.h>

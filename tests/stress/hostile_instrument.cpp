@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "dice.h"
-#include "library/preset_library.h"
+#include "instrument/preset_library.h"
 
 namespace jawari::stress {
 namespace {

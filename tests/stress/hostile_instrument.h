@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "jawari/instrument_description.h"
+#include "jawari/instrument/description.h"
 #include "jawari/result.h"
 
 namespace jawari::stress {

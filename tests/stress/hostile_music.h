@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "dice.h"
-#include "jawari/instrument_model.h"
-#include "jawari/instrument_render.h"
+#include "jawari/instrument/model.h"
+#include "jawari/instrument/render.h"
 
 namespace jawari::stress {
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string>
 
-#include "jawari/description.h"
-#include "jawari/skipping.h"
-#include "jawari/state.h"
+#include "jawari/detail/string_state.h"
+#include "jawari/scene/description.h"
+#include "jawari/scene/skipping.h"
 
 namespace jawari::stress {
 

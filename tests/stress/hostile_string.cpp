@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "jawari/obstacles.h"
+#include "jawari/scene/obstacles.h"
 
 namespace jawari::stress {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dice.h"
-#include "jawari/description.h"
+#include "jawari/scene/description.h"
 
 namespace jawari::stress {
 

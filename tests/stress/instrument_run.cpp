@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <vector>
 
-#include "common/cpu_clock.h"
-#include "common/denormals.h"
+#include "base/cpu_clock.h"
 #include "hostile_music.h"
 #include "instrument_watch.h"
 #include "invariants.h"
-#include "jawari/instrument_rungs.h"
+#include "jawari/denormals.h"
+#include "jawari/instrument/qualities.h"
 #include "sound.h"
 
 namespace jawari::stress {
@@ -109,7 +109,7 @@ void count(const Stage& stage, const InstrumentState& state, Report& report) {
 }
 
 void play(const Stage& stage, Report& report) {
-    const host::NoDenormals guard;  // as jawari plays and renders
+    const NoDenormals guard;  // as jawari plays and renders
     Dice dice(report.seed + 1);
     const auto piece_frames = static_cast<std::size_t>(dice.pick({1, 1, 7, 64}));
     const PlayMode mode = dice.chance(0.3) ? PlayMode::Guitar : PlayMode::Keyboard;

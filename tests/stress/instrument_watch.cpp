@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "instrument_voice.h"
+#include "instrument/voice/voice.h"
 #include "invariants.h"
-#include "jawari/energy.h"
+#include "jawari/scene/energy.h"
 #include "reach.h"
 
 namespace jawari::stress {
@@ -141,7 +141,7 @@ void InstrumentWatch::check_energy(const InstrumentState& state, double frames, 
 }
 
 /// Bends, hand-overs and rungs convert the backward velocity of a string that may be in contact: it then
-/// comes from inside an obstacle, and may stay there (docs/stability.md, "What the player changes").
+/// comes from inside an obstacle, and may stay there (docs/engine/stability.md, "What the player changes").
 void InstrumentWatch::check_gaps(const InstrumentState& state, Judge& judge) {
     const PlayerWork& work = state.work;
     const Counters counters = contact_counters(state);

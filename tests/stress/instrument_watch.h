@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "jawari/instrument_model.h"
-#include "jawari/instrument_state.h"
+#include "jawari/instrument/model.h"
+#include "jawari/instrument/state.h"
 #include "judge.h"
 
 namespace jawari::stress {

@@ -1,11 +1,12 @@
-// The invariants of the exact scheme, each with its bound and its source. docs/stability.md has the proofs.
+// The invariants of the exact scheme, each with its bound and its source. docs/engine/stability.md has the
+// proofs.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <string>
 
-#include "jawari/state.h"
+#include "jawari/detail/string_state.h"
 #include "judge.h"
 
 namespace jawari::stress {
@@ -35,23 +36,25 @@ double work_rounding(const StringModel& model, double impulses_Ns, double length
 double residual_work(const StringModel& model, double impulses_Ns, double residual_m);
 
 /// Rounding of a gap, relative to |S q| + |b|: sums over modes, and one rounding a step until the gap is
-/// summed afresh (docs/model.md, "The time step"; every 64 frames at most, docs/certificate.md, section 6).
+/// summed afresh (docs/engine/model.md, "The time step"; every 64 frames at most, docs/engine/certificate.md,
+/// section 6).
 double gap_rounding_share(const StringModel& model);
 
-/// How far a gap may close, with `travel` what it changes by in a step at most (docs/stability.md, "Gaps").
+/// How far a gap may close, with `travel` what it changes by in a step at most (docs/engine/stability.md,
+/// "Gaps").
 double depth_of_law(ImpactLaw law, double restitution, double travel);
 
 void check_finite(Judge& judge, std::span<const double> values, const std::string& where);
 
 /// A string that is not finite is put to rest and counted: valid scenes never are (DESIGN of the check:
-/// docs/model.md, "The time step").
+/// docs/engine/model.md, "The time step").
 void check_resets(Judge& judge, std::uint64_t resets, const std::string& where);
 
 /// H+ - H = - losses + work of impacts + work of the player, term by term from the states themselves
-/// (docs/model.md, "Energy"); any law, any h.
+/// (docs/engine/model.md, "Energy"); any law, any h.
 void check_balance(Judge& judge, const EnergyMeter& meter, double rounding_J, const std::string& where);
 
-/// Impacts and losses only take: laws with tau <= y_before (docs/model.md, "Passive laws").
+/// Impacts and losses only take: laws with tau <= y_before (docs/engine/model.md, "Passive laws").
 void check_rise_of_step(Judge& judge, const EnergyMeter& meter, double rounding_J, const std::string& where);
 
 /// The same over a block whose forces are held: their work is F (w_end - w_start), exactly.
@@ -63,9 +66,9 @@ void check_depth(Judge& judge, double depth, double allowed, const std::string& 
 void check_residual(Judge& judge, double residual, double travel, double rounding, const std::string& where);
 
 /// A solve is truncated only where more contacts press than the bound on active contacts, or where obstacles
-/// move against one another so that the string does not fit (docs/model.md, "The solver and its bound").
-/// Where contacts depend on one another (coincident but for rounding, or more than modes) rounding may end
-/// one solve in a hundred; each stays passive.
+/// move against one another so that the string does not fit (docs/engine/model.md, "The solver and its
+/// bound"). Where contacts depend on one another (coincident but for rounding, or more than modes) rounding
+/// may end one solve in a hundred; each stays passive.
 void check_truncation(Judge& judge, const Counters& counters, bool independent, const std::string& where);
 
 /// |u|, |v| <= reach sqrt(H), see reach.h.

@@ -1,5 +1,5 @@
 // Plays hostile scenes and hostile music, each named by a seed, and checks every block. Prints one line of
-// JSON a seed; a violation also prints the command that replays it. docs/stability.md.
+// JSON a seed; a violation also prints the command that replays it. docs/engine/stability.md.
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>

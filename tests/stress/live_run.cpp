@@ -5,11 +5,11 @@
 #include <memory>
 #include <vector>
 
-#include "common/cpu_clock.h"
+#include "base/cpu_clock.h"
+#include "commands/bench_latency/adversary.h"
 #include "dice.h"
 #include "invariants.h"
-#include "latency/adversary.h"
-#include "live/player.h"
+#include "player/player.h"
 
 namespace jawari::stress {
 namespace {

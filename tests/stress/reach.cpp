@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "jawari/modes.h"
+#include "jawari/scene/modes.h"
 
 namespace jawari::stress {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "jawari/model.h"
+#include "jawari/detail/string_model.h"
 
 namespace jawari::stress {
 

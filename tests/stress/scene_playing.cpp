@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "excitation.h"
-#include "jawari/render.h"
+#include "jawari/scene/render.h"
 #include "reach.h"
+#include "string/state/excitation.h"
 
 namespace jawari::stress {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "dice.h"
 #include "hostile_scene.h"
-#include "jawari/model.h"
-#include "jawari/state.h"
+#include "jawari/detail/string_model.h"
+#include "jawari/detail/string_state.h"
 
 namespace jawari::stress {
 

@@ -4,13 +4,13 @@
 #include <optional>
 #include <vector>
 
-#include "common/cpu_clock.h"
-#include "common/denormals.h"
+#include "base/cpu_clock.h"
 #include "hostile_scene.h"
 #include "invariants.h"
-#include "jawari/compile.h"
-#include "jawari/energy.h"
-#include "jawari/render.h"
+#include "jawari/denormals.h"
+#include "jawari/scene/compile.h"
+#include "jawari/scene/energy.h"
+#include "jawari/scene/render.h"
 #include "scene_playing.h"
 #include "string_watch.h"
 
@@ -146,7 +146,7 @@ Report run_scene(std::uint64_t seed, const Budget& budget) {
     } else if (compiled) {
         const SceneModel& model = compiled.value();
         const Stage stage{hostile, model, budget, start_cpu_s};
-        std::optional<host::NoDenormals> guard;
+        std::optional<NoDenormals> guard;
         if (!hostile.denormals) guard.emplace();
         SceneState state = make_state(model, hostile.metering, hostile.skipping);
         SceneState again = make_state(model, hostile.metering, hostile.skipping);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "instrument_watch.h"
-#include "jawari/instrument_render.h"
+#include "jawari/instrument/render.h"
 
 namespace jawari::stress {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "invariants.h"
-#include "jawari/energy.h"
+#include "jawari/scene/energy.h"
 
 namespace jawari::stress {
 namespace {
@@ -88,8 +88,8 @@ StringWatch::StringWatch(const StringModel& model, const StringState& start, std
     highest_ = energy(model, start);
 }
 
-/// F w of the forces that are held: their work over a span is its change, docs/model.md, "Forces held over a
-/// frame".
+/// F w of the forces that are held: their work over a span is its change, docs/engine/model.md, "Forces held
+/// over a frame".
 double StringWatch::lag_work(const StringState& state) const {
     if (!state.excitation.active) return 0;
     const double* force = state.excitation.held.data();

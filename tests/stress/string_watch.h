@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "jawari/model.h"
-#include "jawari/state.h"
+#include "jawari/detail/string_model.h"
+#include "jawari/detail/string_state.h"
 #include "judge.h"
 #include "reach.h"
 

@@ -7,8 +7,8 @@
 #include <initializer_list>
 #include <limits>
 
-#include "jawari/compile.h"
-#include "jawari/render.h"
+#include "jawari/scene/compile.h"
+#include "jawari/scene/render.h"
 
 namespace jawari::stress {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "jawari/instrument_render.h"
+#include "jawari/instrument/render.h"
 
 namespace {
 

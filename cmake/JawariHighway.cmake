@@ -1,0 +1,12 @@
+# Defines jawari_highway: Highway by its own CMake package (vcpkg, Conan, Homebrew, Debian), else by pkg-config.
+if(NOT TARGET jawari_highway)
+  find_package(hwy 1.0 CONFIG QUIET)
+  add_library(jawari_highway INTERFACE IMPORTED GLOBAL)
+  if(TARGET hwy::hwy)
+    set_property(TARGET jawari_highway PROPERTY INTERFACE_LINK_LIBRARIES hwy::hwy)
+  else()
+    find_package(PkgConfig REQUIRED)
+    pkg_check_modules(JawariHighway REQUIRED IMPORTED_TARGET libhwy)
+    set_property(TARGET jawari_highway PROPERTY INTERFACE_LINK_LIBRARIES PkgConfig::JawariHighway)
+  endif()
+endif()

@@ -1,0 +1,29 @@
+# One target per layer of the tree, and the check that no layer includes one above it (cmake/layers.txt).
+
+# jawari_layer(NAME OBJECT|STATIC FOLDER SOURCES file... [USES target...] [NEEDS target...]): the sources of one folder as a
+# library. USES are the layers below it, which who uses the layer uses too; NEEDS are libraries of its own.
+function(jawari_layer name kind folder)
+  cmake_parse_arguments(PARSE_ARGV 3 ARG "" "" "SOURCES;USES;NEEDS")
+  list(TRANSFORM ARG_SOURCES PREPEND ${folder}/)
+  list(FILTER ARG_SOURCES INCLUDE REGEX "\\.cpp$")
+  if(NOT ARG_SOURCES)  # headers alone
+    add_library(${name} INTERFACE)
+    target_link_libraries(${name} INTERFACE ${ARG_USES})
+  else()
+    add_library(${name} ${kind} ${ARG_SOURCES})
+    target_link_libraries(${name} PUBLIC ${ARG_USES} PRIVATE ${ARG_NEEDS} jawari_options)
+    add_dependencies(${name} jawari_layers)
+  endif()
+endfunction()
+
+# Runs once per change of a source: an include that runs upward ends the build with its file and line.
+file(GLOB_RECURSE JAWARI_LAYERED_FILES CONFIGURE_DEPENDS
+  ${PROJECT_SOURCE_DIR}/engine/*.h ${PROJECT_SOURCE_DIR}/engine/*.cpp
+  ${PROJECT_SOURCE_DIR}/host/*.h ${PROJECT_SOURCE_DIR}/host/*.cpp)
+add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/layers.stamp
+  COMMAND ${CMAKE_COMMAND} -D ROOT=${PROJECT_SOURCE_DIR} -P ${PROJECT_SOURCE_DIR}/cmake/check_layers.cmake
+  COMMAND ${CMAKE_COMMAND} -E touch ${PROJECT_BINARY_DIR}/layers.stamp
+  DEPENDS ${JAWARI_LAYERED_FILES} ${PROJECT_SOURCE_DIR}/cmake/check_layers.cmake ${PROJECT_SOURCE_DIR}/cmake/layers.txt
+  COMMENT "Includes run downward"
+  VERBATIM)
+add_custom_target(jawari_layers DEPENDS ${PROJECT_BINARY_DIR}/layers.stamp)

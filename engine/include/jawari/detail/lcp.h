@@ -1,0 +1,80 @@
+// The linear complementarity problem of one contact step, in bounded operations:
+//     0 <= r + A lambda   perp   lambda >= 0,      A symmetric positive semidefinite.
+// Projected Gauss-Seidel predicts the active set; the active set is then solved exactly by the symmetric
+// principal pivoting method (Cottle, Pang, Stone, "The Linear Complementarity Problem", 1992, section 4.5),
+// which also handles coincident contacts.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "jawari/detail/aligned.h"
+#include "jawari/realtime.h"
+#include "jawari/scene/description.h"
+
+namespace jawari {
+
+/// Table rows of two nodes of a grid: |i - j| and i + j.
+struct GridDistances {
+    std::size_t apart;
+    std::size_t together;
+};
+
+constexpr GridDistances grid_distances(std::uint32_t i, std::uint32_t j) {
+    return {i > j ? i - j : j - i, i + j};
+}
+
+/// A symmetric operator over contacts: a dense matrix, or, for contacts on a uniform grid, a table by
+/// distance: A_ij = values[|n_i - n_j|] - values[n_i + n_j].
+struct ContactOperator {
+    const double* values = nullptr;
+    std::size_t stride = 0;               ///< between the rows of a dense matrix
+    const std::uint32_t* node = nullptr;  ///< grid node of each contact, or null for a dense matrix
+
+    double operator()(std::size_t i, std::size_t j) const {
+        if (node == nullptr) return values[i * stride + j];
+        const GridDistances d = grid_distances(node[i], node[j]);
+        return values[d.apart] - values[d.together];
+    }
+};
+
+/// Storage for active sets of up to `capacity` contacts. The factor outlives a solve: the next one of the
+/// same operator keeps what its first guess has in common.
+struct LcpWorkspace {
+    std::size_t capacity = 0;
+    std::size_t active_count = 0;
+    const double* factored = nullptr;  ///< values of the operator that the factor is of; null: of none
+    std::size_t repeated = 0;          ///< solves in a row that kept the active set
+    AlignedVector<double>
+        inverse;  ///< of A over a small active set that has been kept, rows largest_inverse apart
+    std::vector<std::uint32_t> active;  ///< indices of the active contacts, in order of the factor's rows
+    AlignedVector<double>
+        factor;  ///< lower Cholesky factor of A over the active set, capacity x capacity, row-major
+    AlignedVector<double> solution;   ///< scratch, capacity
+    AlignedVector<double> direction;  ///< scratch, capacity
+};
+
+/// Active sets up to this size get their inverse when they last: a product instead of two triangular solves.
+inline constexpr std::size_t largest_inverse = 32;
+
+/// Room for min(contacts, largest_active_set) active contacts.
+LcpWorkspace make_lcp_workspace(std::size_t contacts,
+                                std::size_t largest_active_set = limits::active_contacts);
+
+struct LcpOutcome {
+    bool finished =
+        true;  ///< false: the bound on pivots or on the active set was hit, lambda is feasible but not final
+    std::size_t pivots = 0;
+    double residual = 0;  ///< max over candidates of |min(r + A lambda, A_cc lambda)| [unit of r]
+};
+
+/// `candidates` are the indices that take part; lambda is zero
+/// elsewhere on return. On entry lambda holds a guess >= 0 (the last step's impulses), on return the
+/// solution, >= 0. `residual` receives r + A lambda at the candidates.
+LcpOutcome solve_lcp(const ContactOperator& A, std::span<const double> r,
+                     std::span<const std::uint32_t> candidates, std::span<double> lambda,
+                     std::span<double> residual, LcpWorkspace& workspace) JAWARI_REALTIME;
+
+}  // namespace jawari

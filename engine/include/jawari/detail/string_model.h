@@ -1,0 +1,129 @@
+// The compiled scene: every coefficient that rendering needs, never changed after compile().
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "jawari/detail/aligned.h"
+#include "jawari/detail/shared_array.h"
+#include "jawari/scene/description.h"
+
+namespace jawari {
+
+/// Free flight over one output frame of m steps: (q, v) <- (q, v) + F (q, v) + force response. Arrays over
+/// modes.
+struct FlightModel {
+    AlignedVector<double> qq, qv, vq, vv;  ///< P^m - I, P = [[1-d, h e], [-d/h, e]]; qv in s, vq in 1/s
+    /// Response at the frame's end to a force of 1 N held over it, and to one that grows by 1 N a step, per
+    /// unit of phi.
+    AlignedVector<double> q_held, v_held, q_ramp, v_ramp;
+};
+
+/// Weights of the gap certificate (docs/engine/certificate.md). Arrays over modes unless said otherwise.
+struct CertificateModel {
+    AlignedVector<double> stiffness;  ///< kappa = 4d/((1+e+A) h^2): r^2 = v^2 + kappa (q - h v/2)^2 [1/s^2]
+    AlignedVector<double> extent;     ///< |q| <= extent r [s]
+    AlignedVector<double>
+        detour;  ///< q leaves the line between its values at a frame's ends by <= detour r [s]
+    AlignedVector<double> kick;  ///< rho w/mu: what an impulse on phi = 1 adds to r at most [1/kg m]
+    std::vector<std::size_t> group_begin;  ///< first contact of each group, and the contact count at the end
+    SharedArray<double> envelope;          ///< max over a group's contacts of |phi_k|, groups x stride
+    /// What 1 N s at contact c does to group g at most, groups x contact_count: how far a gap falls within a
+    /// frame [m/(N s)] where the model has a response table, else the speed it gets [1/kg].
+    std::vector<double> push;
+    /// `push` as a speed [1/kg] beside a `push` that is a path: for retuned strings, which have no response
+    /// table. Empty without a table, and with more than contacts_with_own_bounds contacts.
+    std::vector<double> push_speed;
+    double push_growth = 1;  ///< factor of all pushes after retuning
+    /// A gap of contact c falls by at most reach[c] sqrt(H) below -b_c, at any step, while the string's
+    /// energy is below H [m/J^(1/2)]. Empty if it is not known.
+    std::vector<double> reach;
+    double reach_growth = 1;  ///< factor of all reaches after retuning
+    double force_reach = 0;   ///< and within a frame by this for each newton held on points of it [m/N]
+};
+
+/// Arrays over modes have length `stride` (the mode count N padded by modes at rest); rows over contacts are
+/// `stride` apart.
+struct StringModel {
+    std::string name;
+    double length_m = 0;
+    double linear_density_kg_per_m = 0;
+    std::size_t mode_count = 0;  ///< N
+    std::size_t stride = 0;      ///< padded(N)
+
+    // -- modes
+    AlignedVector<double> omega;  ///< omega_k [rad/s]; 0 in the padding
+    AlignedVector<double> sigma;  ///< sigma_k [1/s]
+
+    // -- time step (step_coefficients.h)
+    double step_s = 0;  ///< h
+    double theta = 1;   ///< 1 for the exact scheme
+    Scheme scheme = Scheme::Exact;
+    ImpactLaw law = ImpactLaw::Signorini;
+    AlignedVector<double> carry, change;  ///< e_k = carry + change
+    AlignedVector<double> restoring;      ///< -d_k/h [1/s]
+    AlignedVector<double> mobility;       ///< w_k/mu [1/kg m]
+
+    // -- skipping; exact scheme only
+    std::size_t steps_per_frame = 1;  ///< m
+    FlightModel flight;
+    CertificateModel certificate;
+    /// Gap rates within a frame after an impulse of 1 N s [1/kg], rows of response_stride: one per pair of
+    /// contacts, or one per grid distance (response.h); empty where the table would be too large.
+    AlignedVector<double> response;
+    std::size_t response_stride = 0;  ///< padded(steps_per_frame)
+    /// The same step by step where frames have few steps (response.h): row [n][struck] over contacts,
+    /// contact_stride apart; else empty.
+    AlignedVector<double> step_response;
+    /// S^T where frames are short (short_frame.h), stride x contact_stride; else empty.
+    SharedArray<double> contact_columns;
+
+    // -- energy (energy.h): H = sum kinetic v^2 + potential (q - h v/2)^2, or + potential q^2 for the theta
+    // scheme
+    AlignedVector<double> kinetic;      ///< mu (1+e+A)/(8 w), or mu/2 for the theta scheme; 0 where w = 0
+    AlignedVector<double> potential;    ///< mu omega^2/2
+    AlignedVector<double> dissipation;  ///< mu (1-e)/(4 w); for the theta scheme 2 mu sigma h; 0 where w = 0
+
+    // -- contacts
+    std::size_t contact_count = 0;   ///< contacts kept, <= those described
+    std::size_t contact_stride = 0;  ///< padded(contact_count)
+    SharedArray<double>
+        contact_rows;  ///< S: +phi_k(x_c) from below, -phi_k(x_c) from above; contact_count x stride
+    std::vector<double> contact_height;  ///< b_c = +-h_c [m]: gap = S q - b
+    /// What rounding may leave of a gap [m], the largest over the contacts: `signorini` and `paoli-schatzman`
+    /// lift a contact that lies inside by this much a step (docs/engine/stability.md, "Gaps").
+    double gap_rounding_m = 0;
+    std::vector<double> contact_restitution;  ///< e_c
+    std::vector<double> contact_position;     ///< x_c [m]
+    std::vector<Side> contact_side;
+    /// A = h theta D = h theta S diag(w/mu) S^T [m/(N s)]: contact_count x contact_stride, or by grid
+    /// distance.
+    SharedArray<double> compliance;
+    std::size_t grid_intervals = 0;        ///< M if all contacts lie at x = j L/M below the string, else 0
+    std::vector<std::uint32_t> grid_node;  ///< j of each contact, empty without a grid
+    std::vector<std::ptrdiff_t>
+        contact_of_description;  ///< model index of each described contact, -1 if dropped
+
+    // -- initial state
+    AlignedVector<double> initial_displacement;  ///< q
+    AlignedVector<double> initial_velocity;      ///< backward velocity v
+    AlignedVector<double> rest_displacement;     ///< q at rest against the obstacles; where a string with
+                                                 ///< non-finite state restarts
+
+    // -- probes, in the order described
+    std::vector<ProbeDescription> probes;
+    AlignedVector<double>
+        probe_rows;  ///< phi_k(x) for displacement and velocity, zero for others; probes x stride
+};
+
+struct SceneModel {
+    double output_rate_hz = 0;
+    double contact_rate_hz = 0;
+    std::size_t steps_per_frame = 0;  ///< m = contact_rate / output_rate
+    std::vector<StringModel> strings;
+    std::size_t probe_count = 0;  ///< over all strings: outputs of render()
+};
+
+}  // namespace jawari

@@ -1,0 +1,96 @@
+#include "jawari/scene/resolution.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "jawari/scene/modes.h"
+
+namespace jawari {
+namespace {
+
+/// Error of the contact law times the contact rate: the largest over rates from 96 kHz to 8 MHz [Hz].
+constexpr double error_times_rate_hz = 0.014e6;
+
+struct ModeError {
+    double limit_hz;
+    double error;  ///< left when the modes above the limit are missing
+};
+constexpr std::array<ModeError, 7> mode_errors{
+    {{8e3, 0.48}, {12e3, 0.29}, {16e3, 0.27}, {20e3, 0.18}, {30e3, 0.075}, {42e3, 0.068}, {60e3, 0.059}}};
+/// The published bass has modes up to here.
+constexpr ModeError all_modes{std::numeric_limits<double>::infinity(), 0};
+/// Missing modes may use up this share of the error.
+constexpr double share_of_modes = 0.95;
+
+ModeError fewest_modes(double error) {
+    for (const ModeError& candidate : mode_errors) {
+        if (candidate.error <= share_of_modes * error) return candidate;
+    }
+    return all_modes;
+}
+
+std::size_t modes_up_to(const StringDescription& string, double limit_hz) {
+    const Modes modes = modes_of(string);
+    const auto below = [&](double omega) { return omega <= 2 * std::numbers::pi * limit_hz; };
+    const auto count = std::find_if_not(modes.omega.begin(), modes.omega.end(), below) - modes.omega.begin();
+    return std::max<std::size_t>(static_cast<std::size_t>(count), 1);
+}
+
+void cut_modes(StringDescription& string, double limit_hz) {
+    const std::size_t count = modes_up_to(string, limit_hz);
+    if (auto* physical = std::get_if<PhysicalModes>(&string.modes)) {
+        physical->count = count;
+    } else if (auto* table = std::get_if<ModeTable>(&string.modes)) {
+        table->frequency_hz.resize(count);
+        table->decay_per_s.resize(count);
+    }
+    if (auto* state = std::get_if<ModalState>(&string.initial.shape)) {
+        if (!state->displacement.empty()) state->displacement.resize(count);
+        if (!state->velocity.empty()) state->velocity.resize(count);
+    }
+}
+
+}  // namespace
+
+const char* name_of(Quality quality) {
+    switch (quality) {
+        case Quality::Live:
+            return "live";
+        case Quality::Studio:
+            return "studio";
+        case Quality::Reference:
+            return "reference";
+    }
+    return "";
+}
+
+double error_target(Quality quality) {
+    switch (quality) {
+        case Quality::Live:
+            return 0.2;
+        case Quality::Studio:
+            return 0.01;
+        case Quality::Reference:
+            return 0.001;
+    }
+    return 0;
+}
+
+Resolution resolution_for(double error, double output_rate_hz) {
+    const ModeError modes = fewest_modes(error);
+    const double of_contact = std::sqrt(error * error - modes.error * modes.error);
+    const double steps = std::ceil(error_times_rate_hz / of_contact / output_rate_hz);
+    return {steps * output_rate_hz, modes.limit_hz};
+}
+
+SceneDescription at_quality(SceneDescription scene, Quality quality) {
+    const Resolution resolution = resolution_for(error_target(quality), scene.output_rate_hz);
+    scene.contact_rate_hz = resolution.contact_rate_hz;
+    for (StringDescription& string : scene.strings) cut_modes(string, resolution.mode_limit_hz);
+    return scene;
+}
+
+}  // namespace jawari

@@ -1,0 +1,140 @@
+#include "jawari/instrument/render.h"
+
+#include <algorithm>
+#include <array>
+
+#include "instrument/play/control_targets.h"
+#include "instrument/play/controls.h"
+#include "instrument/play/events.h"
+#include "instrument/play/strokes.h"
+#include "instrument/voice/body.h"
+#include "instrument/voice/voice.h"
+
+namespace jawari {
+namespace {
+
+/// Frames that are computed in one go, string by string: a motion's numbers then stay close at hand.
+constexpr std::size_t longest_run = control_frames;
+
+/// The signals of a run.
+struct Run {
+    std::size_t frames = 0;
+    std::array<double, longest_run> left{}, right{}, bridge_N{};
+};
+
+/// The same of one string.
+struct StringRun {
+    std::array<VoiceSignals, longest_run> signals{};
+};
+
+void advance_string(const InstrumentModel& model, InstrumentState& state, std::size_t s, double smoothing,
+                    std::size_t frames, StringRun& run) {
+    InstrumentStringState& string = state.strings[s];
+    std::fill_n(run.signals.begin(), frames, VoiceSignals{});
+    string.busy = 0;
+    for (std::size_t v = 0; v < string.voices.size(); ++v) {
+        Voice& voice = string.voices[v];
+        if (voice.phase == VoicePhase::Idle) continue;
+        for (std::size_t n = 0; n < frames && voice.phase != VoicePhase::Idle; ++n) {
+            const VoiceSignals signals =
+                advance_voice(model, string_of(model, state, s), voice, smoothing, state);
+            VoiceSignals& sum = run.signals[n];
+            sum.pickups += signals.pickups;
+            sum.left += signals.left;
+            sum.right += signals.right;
+            sum.bridge_N += signals.bridge_N;
+        }
+        if (voice.phase != VoicePhase::Idle) {
+            string.busy += 1;
+        } else if (string.sounding == v) {
+            string.sounding = no_voice;
+        }
+    }
+}
+
+/// Frames until anything but the passing of time happens to a motion, at most `frames`. A stroke that waits
+/// is looked after frame by frame.
+std::size_t run_length(const InstrumentState& state, std::size_t frames) {
+    if (state.waiting) return 1;
+    const auto to_control = static_cast<std::size_t>(control_frames - state.frame % control_frames);
+    return std::min(frames, to_control);
+}
+
+/// run.frames frames from sample n of the block on.
+void advance(const InstrumentModel& model, InstrumentState& state, std::span<double* const> strings,
+             std::size_t n, double smoothing, Run& run) {
+    for (auto* signal : {&run.left, &run.right, &run.bridge_N}) std::fill_n(signal->begin(), run.frames, 0.0);
+    bool busy = false;
+    StringRun one;
+    const std::size_t heard =
+        state.busy ? model.strings.size() : std::min(strings.size(), model.strings.size());
+    for (std::size_t s = 0; s < heard; ++s) {
+        const bool sounds = state.strings[s].busy > 0;
+        if (sounds) advance_string(model, state, s, smoothing, run.frames, one);
+        for (std::size_t i = 0; sounds && i < run.frames; ++i) {
+            run.left[i] += one.signals[i].left;
+            run.right[i] += one.signals[i].right;
+            run.bridge_N[i] += one.signals[i].bridge_N;
+        }
+        for (std::size_t i = 0; s < strings.size() && i < run.frames; ++i)
+            strings[s][n + i] = sounds ? one.signals[i].pickups : 0.0;
+        busy = busy || state.strings[s].busy > 0;
+    }
+    state.busy = busy;
+    for (std::size_t i = 0; i < run.frames; ++i) {
+        const StereoSample body = advance_body(model.body, state.body, run.bridge_N[i]);
+        run.left[i] += body.left;
+        run.right[i] += body.right;
+    }
+    state.frame += run.frames;
+}
+
+/// Calls sink(n, left, right) for every frame.
+template <class Sink>
+void render_frames(const InstrumentModel& model, InstrumentState& state,
+                   std::span<const InstrumentEvent> events, std::span<double* const> strings,
+                   std::size_t frames, Sink sink) {
+    const double smoothing = follow_share(model, 1, gain_follow_s);
+    std::size_t next = 0;
+    Run run;
+    for (std::size_t n = 0; n < frames; n += run.frames) {
+        start_pending_strokes(model, state);
+        while (next < events.size() && events[next].frame <= n) apply_event(model, state, events[next++]);
+        if (state.busy && state.frame % control_frames == 0) follow_controls(model, state);
+        const std::size_t end = next < events.size() ? std::min(frames, events[next].frame) : frames;
+        run.frames = run_length(state, end - n);
+        advance(model, state, strings, n, smoothing, run);
+        for (std::size_t i = 0; i < run.frames; ++i) sink(n + i, run.left[i], run.right[i]);
+    }
+    if (next < events.size()) start_pending_strokes(model, state);
+    while (next < events.size()) apply_event(model, state, events[next++]);
+}
+
+}  // namespace
+
+void render_instrument(const InstrumentModel& model, InstrumentState& state,
+                       std::span<const InstrumentEvent> events, const InstrumentOutput& output,
+                       std::size_t frames) JAWARI_REALTIME {
+    render_frames(model, state, events, output.strings, frames,
+                  [&](std::size_t n, double left, double right) {
+                      output.left[n] = left;
+                      output.right[n] = right;
+                  });
+}
+
+void render_instrument(const InstrumentModel& model, InstrumentState& state,
+                       std::span<const InstrumentEvent> events, double* output,
+                       std::size_t frames) JAWARI_REALTIME {
+    render_frames(model, state, events, {}, frames,
+                  [&](std::size_t n, double left, double right) { output[n] = (left + right) / 2; });
+}
+
+double string_energy(const InstrumentModel& model, InstrumentState& state, std::size_t s) JAWARI_REALTIME {
+    double sum = 0;
+    for (Voice& voice : state.strings[s].voices) {
+        if (voice.phase != VoicePhase::Idle) sum += voice_energy(string_of(model, state, s), voice);
+    }
+    return sum;
+}
+
+}  // namespace jawari

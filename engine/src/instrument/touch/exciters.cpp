@@ -1,0 +1,191 @@
+#include "instrument/touch/exciters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "instrument/touch/touches.h"
+#include "string/kernels/mode_sums.h"
+
+namespace jawari {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Halvings of the bracket of a hammer's force: to the last bits of a double.
+constexpr int most_halvings = 60;
+/// A hammer that has not met the string, or not left it, by then is taken away [s].
+constexpr double longest_stroke_s = 0.1;
+
+// ---------------------------------------------------------------------------------------------- finger
+
+/// Integral of half a cosine's rise from 0 to x.
+double half_cosine_area(double x) {
+    return x / 2 - std::sin(pi * x) / (2 * pi);
+}
+
+double finger_force(ExciterState& exciter) {
+    const double share = finger_shape(exciter.frame, exciter.rise_frames, exciter.release_frames);
+    exciter.frame += 1;
+    if (exciter.frame >= exciter.rise_frames + exciter.release_frames) exciter.phase = ExciterPhase::None;
+    return exciter.peak * share;
+}
+
+// ---------------------------------------------------------------------------------------------- hammer
+
+double felt_potential(const ExciterState& hammer, double compression) {
+    if (compression <= 0) return 0;
+    return hammer.stiffness * std::pow(compression, hammer.exponent + 1) / (hammer.exponent + 1);
+}
+
+double felt_force(const ExciterState& hammer, double compression) {
+    return compression > 0 ? hammer.stiffness * std::pow(compression, hammer.exponent) : 0.0;
+}
+
+/// The discrete gradient of the potential, with the loss.
+struct FeltStep {
+    double before = 0;          ///< xi
+    double potential = 0;       ///< V(xi)
+    double loss_per_metre = 0;  ///< K xi^p loss/T
+};
+
+double felt_force_over(const ExciterState& hammer, const FeltStep& step, double after) {
+    const double change = after - step.before;
+    const double size = std::max(std::abs(after), std::abs(step.before));
+    const double elastic = std::abs(change) <= 1e-6 * size
+                               ? felt_force(hammer, step.before + change / 2)
+                               : (felt_potential(hammer, after) - step.potential) / change;
+    return std::max(0.0, elastic + step.loss_per_metre * change);
+}
+
+/// xi+ = free - give F(xi+): the left side less the right rises with xi+, so halving finds it.
+double solve_compression(const ExciterState& hammer, const FeltStep& step, double free_m, double give) {
+    double high = free_m;  // F >= 0
+    if (felt_force_over(hammer, step, high) == 0) return free_m;
+    double low = std::min(0.0, std::min(free_m, step.before)) - std::sqrt(give * step.potential);
+    for (int i = 0; i < most_halvings; ++i) {
+        const double middle = low + (high - low) / 2;
+        if (middle <= low || middle >= high) break;
+        const double excess = middle - free_m + give * felt_force_over(hammer, step, middle);
+        (excess > 0 ? high : low) = middle;
+    }
+    return low + (high - low) / 2;
+}
+
+double hammer_force(const StringAtExciter& at, ExciterState& hammer) {
+    const double T = at.frame_s;
+    FeltStep step;
+    step.before = hammer.position_m - at.displacement_m;
+    step.potential = felt_potential(hammer, step.before);
+    step.loss_per_metre = hammer.loss_s_per_m * felt_force(hammer, step.before) / T;
+    const double give = T * T / (2 * hammer.mass_kg) + at.give_m_per_N;
+    const double free_m = hammer.position_m + T * hammer.speed_m_per_s - (at.displacement_m + at.rise_m);
+    const double after = solve_compression(hammer, step, free_m, give);
+    const double force = felt_force_over(hammer, step, after);
+    hammer.position_m += T * hammer.speed_m_per_s - T * T * force / (2 * hammer.mass_kg);
+    hammer.speed_m_per_s -= T * force / hammer.mass_kg;
+    hammer.has_touched = hammer.has_touched || force > 0;
+    hammer.frame += 1;
+    const bool leaves = hammer.has_touched && after < 0 && after < step.before;
+    const bool too_long = static_cast<double>(hammer.frame) * T > longest_stroke_s;
+    if (leaves || too_long || !std::isfinite(hammer.position_m)) hammer.phase = ExciterPhase::None;
+    return std::isfinite(force) ? force : 0.0;
+}
+
+// ---------------------------------------------------------------------------------------------- tangent
+
+/// b'(t) = height/rise (1 - cos(2 pi t/rise)); the mean of b'' over a frame is the change of b' over it.
+double tangent_force(double frame_s, ExciterState& tangent) {
+    const auto rise = static_cast<double>(tangent.rise_frames);
+    const auto speed = [&](double frame) {
+        return tangent.peak / (rise * frame_s) * (1 - std::cos(2 * pi * frame / rise));
+    };
+    const auto n = static_cast<double>(tangent.frame);
+    const double force = -(speed(n + 1) - speed(n)) / frame_s;
+    tangent.frame += 1;
+    if (tangent.frame >= tangent.rise_frames) tangent.phase = ExciterPhase::None;
+    return force;
+}
+
+void begin(ExciterState& exciter, ExciterPhase phase) {
+    exciter.phase = phase;
+    exciter.frame = 0;
+    exciter.has_touched = false;
+    exciter.point = {};
+}
+
+}  // namespace
+
+std::uint64_t frames_of(double seconds, double rate_hz) JAWARI_REALTIME {
+    return static_cast<std::uint64_t>(std::max(1.0, std::ceil(seconds * rate_hz)));
+}
+
+double finger_shape(std::uint64_t n, std::uint64_t rise_frames,
+                    std::uint64_t release_frames) JAWARI_REALTIME {
+    const auto mean = [](double from, double to, double frames) {
+        return (half_cosine_area(to / frames) - half_cosine_area(from / frames)) * frames;
+    };
+    const auto rise = static_cast<double>(rise_frames);
+    const auto release = static_cast<double>(release_frames);
+    const auto at = static_cast<double>(n);
+    if (n < rise_frames) return mean(at, at + 1, rise);
+    if (n < rise_frames + release_frames) return mean(rise + release - at - 1, rise + release - at, release);
+    return 0;
+}
+
+double exciter_force(const StringAtExciter& at, ExciterState& exciter) JAWARI_REALTIME {
+    switch (exciter.phase) {
+        case ExciterPhase::Finger:
+            return finger_force(exciter);
+        case ExciterPhase::Hammer:
+            return hammer_force(at, exciter);
+        case ExciterPhase::Tangent:
+            return tangent_force(at.frame_s, exciter);
+        case ExciterPhase::None:
+            break;
+    }
+    return 0;
+}
+
+void begin_finger(const StringModel& model, ExciterState& exciter, double x, double width_m, double peak_N,
+                  std::uint64_t rise_frames, std::uint64_t release_frames) JAWARI_REALTIME {
+    begin(exciter, ExciterPhase::Finger);
+    write_point_row(model, model.stride, x, width_m, exciter.row.data());
+    exciter.peak = peak_N;
+    exciter.rise_frames = rise_frames;
+    exciter.release_frames = release_frames;
+}
+
+void begin_hammer(const StringModel& model, const StringState& string, ExciterState& exciter, double x,
+                  double width_m, const HammerDescription& hammer, double speed_m_per_s,
+                  double hardness) JAWARI_REALTIME {
+    begin(exciter, ExciterPhase::Hammer);
+    write_point_row(model, model.stride, x, width_m, exciter.row.data());
+    if (hammer.side == Side::Above) {  // the same in a world upside down
+        for (std::size_t k = 0; k < model.stride; ++k) exciter.row[k] = -exciter.row[k];
+    }
+    double q = 0;
+    double v = 0;
+    kernels::row_products(1, model.stride, model.stride, exciter.row.data(), string.displacement.data(), &q);
+    kernels::row_products(1, model.stride, model.stride, exciter.row.data(), string.velocity.data(), &v);
+    exciter.position_m = q - model.step_s / 2 * v;
+    exciter.speed_m_per_s = speed_m_per_s;
+    exciter.mass_kg = hammer.mass_kg;
+    exciter.stiffness = hammer.stiffness * hardness;
+    exciter.exponent = hammer.exponent;
+    exciter.loss_s_per_m = hammer.loss_s_per_m;
+}
+
+/// u = b (1 - x/L) + sum phi_k q_k: the modes feel -mu b'' times the integral of (1 - x/L) phi_k,
+/// sqrt(2 L)/(k pi).
+void begin_tangent(const StringModel& model, ExciterState& exciter, double height_m,
+                   std::uint64_t rise_frames) JAWARI_REALTIME {
+    begin(exciter, ExciterPhase::Tangent);
+    const double scale = std::sqrt(2 * model.length_m) / pi;
+    for (std::size_t k = 0; k < model.stride; ++k)
+        exciter.row[k] = k < model.mode_count ? scale / static_cast<double>(k + 1) : 0.0;
+    exciter.peak = model.linear_density_kg_per_m * height_m;
+    exciter.rise_frames = rise_frames;
+}
+
+}  // namespace jawari

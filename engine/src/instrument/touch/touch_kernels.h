@@ -1,0 +1,48 @@
+// The loops over modes that instruments add to those of strings (kernels.h), dispatched at run time.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "jawari/detail/string_model.h"
+#include "jawari/detail/touches.h"
+#include "jawari/instrument/model.h"
+
+namespace jawari::kernels {
+
+/// Rows that touch a string, and what the string does under them: the first `count` of each array are set.
+struct TouchedRows {  // NOLINT(cppcoreguidelines-pro-type-member-init)
+    std::size_t count = 0;
+    std::array<const double*, touch_slots + 1> row;
+    std::array<double, touch_slots + 1> middle;  ///< row (q - lag v)
+    std::array<double, touch_slots + 1> rise;    ///< its change over the frame in free flight
+};
+
+/// What modes [begin, end) do under all rows.
+void free_paths(std::size_t begin, std::size_t end, double lag, const FlightModel& flight, const double* q,
+                const double* v, TouchedRows& rows) noexcept;
+
+/// out <- row (q_held - lag v_held): how far the modes have moved at a frame's end per newton held on the
+/// row.
+void moved_by_held(std::size_t n, double lag, const FlightModel& flight, const double* row,
+                   double* out) noexcept;
+
+/// Averaging of sine shapes over a width.
+struct PointShape {
+    double scale = 1;  ///< amplitude of the shapes
+    double a = 0;      ///< pi x/L
+    double b = 0;      ///< pi width/(2 L); 0: a point
+};
+
+/// row[k] <- scale sin((k+1) a) sin((k+1) b)/((k+1) b), k < n (padded)
+void point_row(std::size_t n, const PointShape& shape, double* row) noexcept;
+
+/// A frame of the body's modes, see BodyModel.
+struct BodyFrame {
+    double left = 0, right = 0;  ///< sum of gain v
+    double largest = 0;          ///< of the larger gain times |v| now and before
+};
+BodyFrame advance_body(std::size_t n, const BodyModel& body, double force_before_N, double force_change_N,
+                       double* y, double* v) noexcept;
+
+}  // namespace jawari::kernels

@@ -1,0 +1,19 @@
+// Legato: the ringing shape of a string carried over to another speaking length.
+#pragma once
+
+#include "jawari/instrument/model.h"
+#include "jawari/instrument/state.h"
+#include "jawari/realtime.h"
+
+namespace jawari {
+
+/// Modes of the old and of the new length that take part: beyond them the new motion starts at rest.
+inline constexpr std::size_t transfer_modes = 256;
+
+/// Gives `to`, which is at rest at its fret, the shape and true velocity of `from`, seen from the bridge. At
+/// a new end inside the old length the shape is made zero there by taking out its linear ramp; beyond an old
+/// end the string is at rest.
+void carry_over(const InstrumentStringModel& string, const Voice& from, Voice& to,
+                PlayerWork& work) JAWARI_REALTIME;
+
+}  // namespace jawari

@@ -1,0 +1,66 @@
+// A sounding string goes on at another quality level.
+#include <algorithm>
+#include <cmath>
+
+#include "instrument/model/played_string.h"
+#include "instrument/touch/touches.h"
+#include "instrument/voice/bend.h"
+#include "jawari/instrument/qualities.h"
+#include "jawari/scene/energy.h"
+
+namespace jawari {
+namespace {
+
+/// v = backward_q q + backward_u u, with q from rest, at either rung. Overdamped modes keep v.
+void convert_modes(const StringModel& source, const double* backward_q, const double* backward_u,
+                   const StoppedStringModel& to, StringState& string) {
+    const StringModel& target = to.string;
+    const std::size_t kept = std::min(source.mode_count, target.mode_count);
+    for (std::size_t k = 0; k < kept; ++k) {
+        const double q = string.displacement[k] - source.rest_displacement[k];
+        const double u = (string.velocity[k] - backward_q[k] * q) / backward_u[k];
+        string.displacement[k] = q + target.rest_displacement[k];
+        string.velocity[k] = to.backward_q[k] * q + to.backward_u[k] * u;
+    }
+    for (std::size_t k = kept; k < target.stride; ++k) {
+        string.displacement[k] = target.rest_displacement[k];
+        string.velocity[k] = 0;
+    }
+}
+
+void change_voice(const InstrumentStringModel& from, const InstrumentStringModel& to, Voice& voice,
+                  PlayerWork& work) {
+    const StoppedStringModel& left = from.stopped[voice.fret];
+    const StoppedStringModel& reached = to.stopped[voice.fret];
+    const StringModel& source = voice_model(from, voice);
+    const bool bent = voice.bend.active;
+    const double semitones = voice.bend.semitones;
+    const double before = energy(source, voice.string);
+    convert_modes(source, bent ? voice.bend.backward_q.data() : left.backward_q.data(),
+                  bent ? voice.bend.backward_u.data() : left.backward_u.data(), reached, voice.string);
+    const std::size_t kept = std::min(source.mode_count, reached.string.mode_count);
+    forget_bend(voice);
+    PlayerWork of_bend;  // the tension does not change: what it takes belongs to the rung
+    if (bent) set_bend(reached, voice, semitones, of_bend);
+    const StringModel& now = voice_model(to, voice);
+    notice_change(now, voice.string);
+    rewrite_touches(now, voice.touches, kept);
+    const double change_J = energy(now, voice.string) - before;
+    if (std::isfinite(change_J)) work.rungs_J += change_J;
+}
+
+}  // namespace
+
+void change_rung(const InstrumentModel& model, InstrumentState& state, std::size_t s,
+                 std::size_t rung) JAWARI_REALTIME {
+    InstrumentStringState& string = state.strings[s];
+    if (string.rung == rung || rung > model.lower.size()) return;
+    const InstrumentStringModel& from = string_of(model, state, s);
+    string.rung = rung;
+    const InstrumentStringModel& to = string_of(model, state, s);
+    for (Voice& voice : string.voices) {
+        if (voice.phase != VoicePhase::Idle) change_voice(from, to, voice, state.work);
+    }
+}
+
+}  // namespace jawari

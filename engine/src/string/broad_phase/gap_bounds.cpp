@@ -1,0 +1,269 @@
+// The bounds themselves: how fast modes and gaps can move from the present state on.
+#include "string/broad_phase/gap_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "string/contact/contact_stage.h"
+#include "string/kernels/mode_bounds.h"
+#include "string/kernels/mode_sums.h"
+
+namespace jawari {
+namespace {
+
+/// In free flight bounds only become tighter when computed anew; this often is enough.
+constexpr std::uint64_t refresh_period = 32;
+/// Under excitation they grow with every frame.
+constexpr std::uint64_t excited_refresh_period = 8;
+
+/// Of the way to the nearest contact, what passive forces may bend the string by within a frame.
+constexpr double share_of_forces = 0.1;
+
+/// Modes behind the last one that matters are put to rest and leave the sums.
+void drop_weak_modes(const StringModel& model, StringState& state, const kernels::LargestBounds& largest) {
+    const CertificateState& bounds = state.certificate;
+    std::size_t active = state.active_modes;
+    while (active > state.excitation.modes && bounds.speed[active - 1] <= lazy_threshold * largest.speed &&
+           bounds.extent[active - 1] <= lazy_threshold * largest.extent) {
+        --active;
+    }
+    active = std::min(padded(active), model.stride);
+    for (auto* array : {&state.displacement, &state.velocity, &state.velocity_before,
+                        &state.displacement_flown, &state.velocity_flown}) {
+        std::fill(array->begin() + static_cast<std::ptrdiff_t>(active),
+                  array->begin() + static_cast<std::ptrdiff_t>(state.active_modes), 0.0);
+    }
+    state.active_modes = active;
+}
+
+bool has_faded(const StringState& state, const kernels::LargestBounds& largest) {
+    const CertificateState& bounds = state.certificate;
+    return largest.speed <= sleep_threshold * bounds.strongest_speed &&
+           largest.extent <= sleep_threshold * bounds.strongest_extent;
+}
+
+/// At rest, until a force or a moving obstacle wakes the string.
+void fall_asleep(StringState& state) {
+    for (auto* array : {&state.displacement, &state.velocity, &state.velocity_before,
+                        &state.displacement_flown, &state.velocity_flown}) {
+        std::fill(array->begin(), array->end(), 0.0);
+    }
+    std::fill(state.contact.frame_impulse.begin(), state.contact.frame_impulse.end(), 0.0);
+    state.active_modes = 0;
+    state.asleep = true;
+}
+
+/// Whether what acts on the string is too weak to bring a clear string to a contact.
+bool stays_passive(const StringState& state) {
+    const ExcitationState& excitation = state.excitation;
+    return !excitation.active ||
+           (excitation.passive && excitation.strength_N <= state.certificate.clear_force_N);
+}
+
+/// From the obstacles' present heights.
+void set_clear_limits(const StringModel& model, StringState& state) {
+    CertificateState& bounds = state.certificate;
+    bounds.clear_limits_outdated = false;
+    double least_height = std::numeric_limits<double>::infinity();
+    double least_root = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < model.contact_count; ++c) {
+        const double below = std::max(0.0, -state.contact.height[c]);
+        least_height = std::min(least_height, below);
+        least_root = std::min(least_root, below / model.certificate.reach[c]);
+    }
+    const double root = (1 - share_of_forces) * least_root / (bound_safety * model.certificate.reach_growth);
+    bounds.clear_energy_J = root * root;
+    bounds.clear_force_N = share_of_forces * least_height / model.certificate.force_reach;
+}
+
+bool is_clear(const StringModel& model, StringState& state) {
+    if (state.leaves_obstacles) return state.skipping.flight;
+    CertificateState& bounds = state.certificate;
+    const bool known = model.certificate.reach.size() == model.contact_count && lookahead(model) == 0;
+    if (!known || !state.skipping.certificate || !state.skipping.flight) return false;
+    if (bounds.clear_limits_outdated) set_clear_limits(model, state);
+    if (!(bounds.clear_energy_J > 0) || !stays_passive(state)) return false;
+    return kernels::energy(state.active_modes, model.kinetic.data(), model.potential.data(), model.step_s / 2,
+                           state.displacement.data(), state.velocity.data()) < bounds.clear_energy_J;
+}
+
+/// While few contacts strike, their gaps at both ends of each frame cost less than odometers that serve once.
+bool looks_directly(const StringModel& model, const StringState& state) {
+    return state.certificate.struck && model.contact_count <= contacts_with_own_bounds &&
+           !looks_ahead(model.law);
+}
+
+/// speed_g = sum_k envelope_g r_k, or nothing where odometers are not needed. Odometers start again from
+/// zero; what the readings claimed stays claimed.
+void set_group_speeds(const StringModel& model, StringState& state) {
+    CertificateState& bounds = state.certificate;
+    const std::size_t groups = group_count(model);
+    if (bounds.direct) {
+        std::fill(bounds.group_speed.begin(), bounds.group_speed.end(), 0.0);
+    } else {
+        kernels::row_products(groups, state.active_modes, model.stride, model.certificate.envelope.data(),
+                              bounds.speed.data(), bounds.group_speed.data());
+    }
+    for (std::size_t g = 0; g < groups; ++g) {
+        bounds.group_speed[g] *= bound_safety;
+        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
+             ++c) {
+            bounds.open_until[c] -= bounds.group_odometer[g];
+        }
+        bounds.group_odometer[g] = 0;
+        bounds.group_clearance[g] = -std::numeric_limits<double>::infinity();
+    }
+    for (auto* known : {&bounds.group_has_detour, &bounds.group_has_clearance, &bounds.group_has_lookout})
+        std::fill(known->begin(), known->end(), std::uint8_t{0});
+}
+
+/// out[g] <- sum_k envelope_g x_k for the groups in `list` that are not flagged yet.
+void complete(const StringModel& model, StringState& state, std::span<const std::uint32_t> list,
+              const AlignedVector<double>& x, std::vector<std::uint8_t>& known, std::vector<double>& out) {
+    std::vector<std::uint32_t>& missing = state.certificate.missing_groups;
+    std::size_t count = 0;
+    for (const auto g : list) {
+        if (known[g] == 0) missing[count++] = g;
+        known[g] = 1;
+    }
+    kernels::indexed_row_products(missing.data(), count, state.active_modes, model.stride,
+                                  model.certificate.envelope.data(), x.data(), out.data());
+    state.certificate.missing_count = count;
+}
+
+double highest_obstacle(const StringModel& model, const StringState& state, std::size_t g) {
+    double highest = -std::numeric_limits<double>::infinity();
+    for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1]; ++c) {
+        highest = std::max(highest, state.contact.height[c]);
+    }
+    return highest;
+}
+
+struct ForceBoundsOfParts {
+    kernels::ForceBounds low, high;
+};
+
+/// From every mode's own force.
+ForceBoundsOfParts bounds_by_mode(const StringModel& model, const ExcitationState& excitation) {
+    const std::size_t low = std::min(low_modes(model), excitation.modes);
+    const auto first = static_cast<double>(excitation.elapsed);
+    const auto last = static_cast<double>(excitation.elapsed + model.steps_per_frame);
+    const auto bounds_of = [&](std::size_t begin, std::size_t end) {
+        return kernels::force_bounds(begin, end, model.certificate, excitation.held.data(),
+                                     excitation.ramp.data(), first, last);
+    };
+    return {bounds_of(0, low), bounds_of(low, excitation.modes)};
+}
+
+/// From the strength of held point forces: no mode's force exceeds sqrt(2/L) times it.
+ForceBoundsOfParts bounds_by_strength(const StringModel& model, StringState& state) {
+    const std::size_t modes = state.excitation.modes;
+    UnitKick& unit = state.certificate.unit_kick;
+    if (unit.modes != modes) {
+        const std::size_t low = std::min(low_modes(model), modes);
+        const kernels::ForceBounds of_low = kernels::unit_force_bounds(0, low, model.certificate);
+        const kernels::ForceBounds of_high = kernels::unit_force_bounds(low, modes, model.certificate);
+        unit = {modes, of_low.speed, of_low.detour, of_high.speed, of_high.extent, of_high.detour};
+    }
+    const double largest_N = state.excitation.strength_N * std::sqrt(2 / model.length_m);
+    ForceBoundsOfParts force;
+    force.low.speed = force.low.variation = largest_N * unit.low_speed;
+    force.low.detour = largest_N * unit.low_detour;
+    force.high.speed = force.high.variation = largest_N * unit.high_speed;
+    force.high.extent = largest_N * unit.high_extent;
+    force.high.detour = largest_N * unit.high_detour;
+    return force;
+}
+
+}  // namespace
+
+bool needs_refresh(const StringState& state) JAWARI_REALTIME {
+    const CertificateState& bounds = state.certificate;
+    if (bounds.clear) return bounds.outdated || bounds.age >= refresh_period || !stays_passive(state);
+    const std::uint64_t period = bounds.excited ? excited_refresh_period : refresh_period;
+    return bounds.outdated || bounds.age >= period || bounds.excited != is_excited(state);
+}
+
+std::uint64_t frames_until_refresh(const StringState& state) JAWARI_REALTIME {
+    return needs_refresh(state) ? 0 : refresh_period - state.certificate.age;
+}
+
+void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    CertificateState& bounds = state.certificate;
+    const kernels::LargestBounds largest =
+        kernels::mode_bounds(state.active_modes, model, state.displacement.data(), state.velocity.data(),
+                             bounds.speed.data(), bounds.extent.data(), bounds.detour.data());
+    bounds.strongest_speed = std::max(bounds.strongest_speed, largest.speed);
+    bounds.strongest_extent = std::max(bounds.strongest_extent, largest.extent);
+    const bool finite =
+        std::isfinite(largest.speed) && std::isfinite(largest.extent);  // else left to the frame's check
+    if (finite) {
+        if (state.skipping.sleep && !is_excited(state) && has_faded(state, largest)) {
+            fall_asleep(state);
+            return;
+        }
+        if (state.skipping.lazy) drop_weak_modes(model, state, largest);
+    }
+    bounds.clear = is_clear(model, state);
+    bounds.direct = !bounds.clear && looks_directly(model, state);
+    if (bounds.clear) {
+        std::fill(bounds.open_until.begin(), bounds.open_until.end(),
+                  -std::numeric_limits<double>::infinity());
+    } else {
+        set_group_speeds(model, state);
+    }
+    bounds.age = 0;
+    bounds.outdated = false;
+    bounds.excited = is_excited(state);
+    bounds.kicks = {};
+    bounds.unit_kick.modes = 0;
+}
+
+void wake_excited_modes(StringState& state) JAWARI_REALTIME {
+    const std::size_t excited = state.excitation.modes;
+    if (excited <= state.active_modes) return;
+    CertificateState& bounds = state.certificate;
+    for (auto* array : {&bounds.speed, &bounds.extent, &bounds.detour}) {
+        std::fill(array->begin() + static_cast<std::ptrdiff_t>(state.active_modes),
+                  array->begin() + static_cast<std::ptrdiff_t>(excited), 0.0);
+    }
+    state.active_modes = excited;
+}
+
+void add_kicks(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    const ForceBoundsOfParts force =
+        state.excitation.passive ? bounds_by_strength(model, state) : bounds_by_mode(model, state.excitation);
+    KickState& kicks = state.certificate.kicks;
+    const double frame_s = frame_length(model);
+    const double largest_shape = bound_safety * std::sqrt(2 / model.length_m);
+    const double scale = largest_shape * frame_s;
+    const double sagitta = largest_shape * frame_s * frame_s / 8;
+    kicks.speed += scale * (force.low.speed + force.high.speed);
+    kicks.overtones += scale * force.high.extent;
+    kicks.detour += scale * (force.low.detour + force.high.detour);
+    kicks.low_detour += scale * force.low.detour;
+    kicks.frame_detour = sagitta * (force.low.variation + force.high.variation);
+    kicks.frame_low_detour = sagitta * force.low.variation;
+}
+
+void complete_clearances(const StringModel& model, StringState& state,
+                         std::span<const std::uint32_t> groups) JAWARI_REALTIME {
+    CertificateState& bounds = state.certificate;
+    complete(model, state, groups, bounds.extent, bounds.group_has_clearance, bounds.group_clearance);
+    for (std::size_t i = 0; i < bounds.missing_count; ++i) {
+        const auto g = bounds.missing_groups[i];
+        bounds.group_clearance[g] =
+            -bound_safety * bounds.group_clearance[g] - highest_obstacle(model, state, g);
+    }
+}
+
+void complete_detours(const StringModel& model, StringState& state,
+                      std::span<const std::uint32_t> groups) JAWARI_REALTIME {
+    CertificateState& bounds = state.certificate;
+    complete(model, state, groups, bounds.detour, bounds.group_has_detour, bounds.group_detour);
+    for (std::size_t i = 0; i < bounds.missing_count; ++i)
+        bounds.group_detour[bounds.missing_groups[i]] *= bound_safety;
+}
+
+}  // namespace jawari

@@ -1,0 +1,81 @@
+// How fast and how far a string can move from its present state on: the numbers that the certificate rests on
+// (docs/engine/certificate.md, sections 1, 2 and 4).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+#include "jawari/detail/string_model.h"
+#include "jawari/detail/string_state.h"
+#include "jawari/realtime.h"
+#include "string/contact/contact_stage.h"
+#include "string/contact/impact_law.h"
+
+namespace jawari {
+
+/// Bounds are widened by this share, far above the rounding of the sums that make them.
+inline constexpr double bound_safety = 1 + 1e-9;
+
+/// An output frame [s].
+inline double frame_length(const StringModel& model) {
+    return model.step_s * static_cast<double>(model.steps_per_frame);
+}
+
+/// How far ahead of the step's end the law looks for candidates [s].
+inline double lookahead(const StringModel& model) {
+    return looks_ahead(model.law) ? model.step_s / 2 : 0.0;
+}
+
+/// Up to this many contacts each has bounds of its own; more share them in groups of neighbours.
+inline constexpr std::size_t contacts_with_own_bounds = 64;
+
+/// Modes that the lookout flies ahead.
+inline constexpr std::size_t lookout_modes = 64;
+
+/// Frames that are planned at a time.
+inline constexpr std::uint64_t longest_plan = 16;
+
+inline std::size_t low_modes(const StringModel& model) {
+    return std::min(lookout_modes, model.stride);
+}
+
+inline std::size_t group_of(const StringModel& model, std::size_t contact) {
+    const std::size_t size = model.certificate.group_begin[1];
+    return size == 1 ? contact : contact / size;  // a division for each contact of a fretboard would be felt
+}
+
+inline std::size_t group_count(const StringModel& model) {
+    return model.certificate.group_begin.size() - 1;
+}
+
+/// Bound of the rate of a group's gaps over the coming frame [m/s].
+inline double gap_speed(const StringState& state, std::size_t g) {
+    return state.certificate.group_speed[g] + state.certificate.kicks.speed;
+}
+
+/// True if the bounds must be computed anew before the coming frame.
+bool needs_refresh(const StringState& state) JAWARI_REALTIME;
+
+/// Frames for which the bounds stay as they are if the string flies.
+std::uint64_t frames_until_refresh(const StringState& state) JAWARI_REALTIME;
+
+/// Computes the bounds of modes and the groups' speeds from the present state; lets weak modes leave the sums
+/// and a faded string fall asleep.
+void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME;
+
+/// Modes that forces reach join the sums; until then they are at rest.
+void wake_excited_modes(StringState& state) JAWARI_REALTIME;
+
+/// Adds what the excitation of the coming frame does to the bounds.
+void add_kicks(const StringModel& model, StringState& state) JAWARI_REALTIME;
+
+/// group_clearance of the groups listed, where it is not known since the last refresh.
+void complete_clearances(const StringModel& model, StringState& state,
+                         std::span<const std::uint32_t> groups) JAWARI_REALTIME;
+
+/// group_detour of the groups listed, where it is not known since the last refresh.
+void complete_detours(const StringModel& model, StringState& state,
+                      std::span<const std::uint32_t> groups) JAWARI_REALTIME;
+
+}  // namespace jawari

@@ -1,0 +1,199 @@
+#include "string/contact/contact_stage.h"
+
+#include <algorithm>
+
+#include "jawari/detail/lcp.h"
+#include "string/contact/impact_law.h"
+#include "string/kernels/mode_sums.h"
+#include "string/model/contact_response.h"
+
+namespace jawari {
+namespace {
+
+ContactMoment moment_of(const StringModel& model, const ContactState& contact, std::size_t c) {
+    ContactMoment moment;
+    moment.gap = contact.gap[c];
+    moment.gap_before = contact.gap_before[c];
+    moment.approach = model.step_s * contact.gap_rate[c];
+    moment.restitution = model.contact_restitution[c];
+    moment.theta = model.theta;
+    moment.scheme = model.scheme;
+    moment.excused = excused_depth(model, contact);
+    return moment;
+}
+
+/// y_free + A lambda - y_free at one contact.
+double gap_response(const StringModel& model, const ContactState& contact, std::size_t c) {
+    const ContactOperator A = compliance_of(model);
+    double response = 0;
+    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
+        const auto other = contact.candidates[i];
+        if (contact.impulse[other] > 0) response += A(c, other) * contact.impulse[other];
+    }
+    return response;
+}
+
+/// Scales a truncated solution by clamp(-lambda'(y_free - y_before)/(lambda' A lambda), 0, 1): impacts then
+/// do no work > 0.
+void make_passive(const StringModel& model, ContactState& contact) {
+    double linear = 0;
+    double quadratic = 0;
+    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
+        const auto c = contact.candidates[i];
+        const double impulse = contact.impulse[c];
+        if (impulse <= 0) continue;
+        linear += impulse * (contact.gap_free[c] - contact.gap_before[c]);
+        quadratic += impulse * gap_response(model, contact, c);
+    }
+    const double scale = quadratic > 0 ? std::clamp(-linear / quadratic, 0.0, 1.0) : 0.0;
+    for (std::size_t i = 0; i < contact.candidate_count; ++i) contact.impulse[contact.candidates[i]] *= scale;
+}
+
+/// out <- S x at the near contacts.
+void near_products(const StringModel& model, StringState& state, const AlignedVector<double>& x,
+                   AlignedVector<double>& out) {
+    const ContactState& contact = state.contact;
+    kernels::indexed_row_products(contact.near.data(), contact.near_count, state.active_modes, model.stride,
+                                  model.contact_rows.data(), x.data(), out.data());
+}
+
+}  // namespace
+
+void place_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    ContactState& contact = state.contact;
+    near_products(model, state, state.displacement, contact.gap);
+    near_products(model, state, state.velocity, contact.gap_rate);
+    for (std::size_t i = 0; i < contact.near_count; ++i) {
+        const auto c = contact.near[i];
+        contact.gap_before[c] =
+            contact.gap[c] - model.step_s * contact.gap_rate[c] - contact.height_before[c];
+        contact.gap[c] -= contact.height[c];
+    }
+}
+
+void join_step(const StringModel& model, StringState& state, std::size_t c) JAWARI_REALTIME {
+    ContactState& contact = state.contact;
+    const auto row_product = [&](const AlignedVector<double>& x) {
+        const auto index = static_cast<std::uint32_t>(c);
+        kernels::indexed_row_products(&index, 1, state.active_modes, model.stride, model.contact_rows.data(),
+                                      x.data(), contact.residual.data());
+        return contact.residual[c];
+    };
+    contact.gap[c] = row_product(state.displacement) - contact.height[c];
+    contact.gap_before[c] = contact.gap[c] - model.step_s * row_product(state.velocity_before);
+    contact.gap_free[c] = contact.gap[c] + model.step_s * row_product(state.velocity);
+    contact.impulse[c] = 0;
+    contact.near[contact.near_count++] = static_cast<std::uint32_t>(c);
+    contact.is_near[c] = 1;
+}
+
+void move_obstacles(ContactState& contact) JAWARI_REALTIME {
+    if (contact.moving_count == 0) return;
+    std::size_t still_moving = 0;
+    for (std::size_t c = 0; c < contact.height.size(); ++c) {
+        const double rise_before = contact.height[c] - contact.height_before[c];
+        contact.height_rise_before[c] = rise_before;
+        contact.height_before[c] = contact.height[c];
+        if (contact.moving_steps[c] > 0) {
+            contact.moving_steps[c] -= 1;
+            contact.height[c] = contact.moving_steps[c] == 0 ? contact.height_target[c]
+                                                             : contact.height[c] + contact.height_rate[c];
+            still_moving += 1;
+        } else if (rise_before != 0) {
+            still_moving += 1;  // the past of a movement fades out of the two-step balance
+        }
+    }
+    contact.moving_count = still_moving;
+}
+
+void note_approach(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    near_products(model, state, state.velocity_before, state.contact.gap_rate);
+}
+
+void predict_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    ContactState& contact = state.contact;
+    const double h = model.step_s;
+    near_products(model, state, state.velocity, contact.gap_free);
+    for (std::size_t i = 0; i < contact.near_count; ++i) {
+        const auto c = contact.near[i];
+        const double raised = contact.height[c] - contact.height_before[c];
+        const double rate = model.theta * contact.gap_free[c] + (1 - model.theta) * contact.gap_rate[c];
+        contact.gap_free[c] = contact.gap[c] + h * rate - raised;
+    }
+}
+
+bool select_candidates(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    ContactState& contact = state.contact;
+    contact.candidate_count = 0;
+    bool violated = false;
+    for (std::size_t i = 0; i < contact.near_count; ++i) {
+        const auto c = contact.near[i];
+        const ContactMoment moment = moment_of(model, contact, c);
+        if (!is_candidate(model.law, moment)) {
+            contact.impulse[c] = 0;
+            continue;
+        }
+        contact.candidates[contact.candidate_count++] = c;
+        contact.offset[c] = contact.gap_free[c] - target_gap(model.law, moment);
+        violated = violated || contact.offset[c] < 0;
+    }
+    return violated;
+}
+
+void clear_impulses(StringState& state) JAWARI_REALTIME {
+    ContactState& contact = state.contact;
+    for (std::size_t i = 0; i < contact.near_count; ++i) contact.impulse[contact.near[i]] = 0;
+}
+
+void solve_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    ContactState& contact = state.contact;
+    Counters& counters = state.counters;
+    const std::span<const std::uint32_t> candidates{contact.candidates.data(), contact.candidate_count};
+    const LcpOutcome outcome = solve_lcp(compliance_of(model), contact.offset, candidates, contact.impulse,
+                                         contact.residual, state.lcp);
+    counters.solves += 1;
+    contact.left_open = outcome.finished ? outcome.residual : 0.0;
+    if (outcome.finished) {
+        counters.worst_residual_m = std::max(counters.worst_residual_m, outcome.residual);
+    } else {
+        counters.truncated_solves += 1;
+        make_passive(model, contact);
+    }
+}
+
+void apply_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    const ContactState& contact = state.contact;
+    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
+        const auto c = contact.candidates[i];
+        if (contact.impulse[c] <= 0) continue;
+        kernels::add_impulse(model.stride, contact.impulse[c], model.mobility.data(),
+                             model.contact_rows.data() + c * model.stride, state.velocity.data());
+    }
+}
+
+void accept_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    ContactState& contact = state.contact;
+    for (std::size_t i = 0; i < contact.near_count; ++i) {
+        const auto c = contact.near[i];
+        contact.gap_before[c] = contact.gap[c];
+        contact.gap[c] = contact.gap_free[c];
+    }
+    const ContactOperator A = compliance_of(model);
+    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
+        const auto active = contact.candidates[i];
+        const double impulse = contact.impulse[active];
+        if (impulse <= 0) continue;
+        contact.frame_impulse[active] += impulse;
+        state.counters.impulses += 1;
+        for (std::size_t j = 0; j < contact.near_count; ++j) {
+            contact.gap[contact.near[j]] += A(active, contact.near[j]) * impulse;
+        }
+    }
+    state.counters.candidates += contact.candidate_count;
+    for (std::size_t i = 0; i < contact.near_count; ++i) {
+        state.counters.worst_penetration_m =
+            std::max(state.counters.worst_penetration_m, -contact.gap[contact.near[i]]);
+    }
+}
+
+}  // namespace jawari

@@ -1,0 +1,212 @@
+#include "jawari/detail/string_state.h"
+
+#include <algorithm>
+
+#include "jawari/scene/energy.h"
+#include "string/broad_phase/gap_bounds.h"
+#include "string/broad_phase/gap_certificate.h"
+#include "string/contact/contact_stage.h"
+#include "string/frame/short_frame.h"
+#include "string/kernels/mode_run.h"
+
+namespace jawari {
+namespace {
+
+ContactState make_contact_state(const StringSizes& sizes) {
+    const std::size_t n = padded(sizes.contacts);
+    ContactState contact;
+    for (auto* array :
+         {&contact.gap, &contact.gap_before, &contact.height, &contact.height_before,
+          &contact.height_rise_before, &contact.height_rate, &contact.height_target, &contact.impulse,
+          &contact.frame_impulse, &contact.gap_free, &contact.gap_rate, &contact.offset, &contact.residual}) {
+        array->assign(n, 0.0);
+    }
+    contact.moving_steps.assign(n, 0);
+    contact.candidates.assign(n, 0);
+    contact.near.assign(n, 0);
+    contact.is_near.assign(n, 0);
+    return contact;
+}
+
+void place_obstacles(const StringModel& model, ContactState& contact) {
+    std::copy(model.contact_height.begin(), model.contact_height.end(), contact.height.begin());
+    contact.height_before = contact.height;
+    for (auto* array :
+         {&contact.height_rise_before, &contact.impulse, &contact.frame_impulse, &contact.gap_rate}) {
+        std::fill(array->begin(), array->end(), 0.0);
+    }
+    std::fill(contact.moving_steps.begin(), contact.moving_steps.end(), std::uint64_t{0});
+    contact.moving_count = 0;
+    contact.candidate_count = 0;
+}
+
+CertificateState make_certificate_state(const StringSizes& sizes) {
+    CertificateState bounds;
+    for (auto* array : {&bounds.speed, &bounds.detour, &bounds.extent}) array->assign(sizes.stride, 0.0);
+    for (auto* array : {&bounds.group_speed, &bounds.group_detour, &bounds.group_clearance,
+                        &bounds.group_odometer, &bounds.group_push, &bounds.group_margin}) {
+        array->assign(sizes.groups, 0.0);
+    }
+    for (auto* array : {&bounds.open_until, &bounds.margin, &bounds.frame_gap, &bounds.frame_end_gap}) {
+        array->assign(sizes.contacts, 0.0);
+    }
+    bounds.certified_at.assign(sizes.contacts, 0);
+    LookoutState& lookout = bounds.lookout;
+    for (auto* array : {&lookout.displacement, &lookout.velocity}) array->assign(lookout_modes, 0.0);
+    for (auto* array : {&lookout.group_detour, &lookout.group_overtones}) array->assign(sizes.groups, 0.0);
+    for (auto* array : {&lookout.gap, &lookout.gap_end}) array->assign(sizes.contacts, 0.0);
+    lookout.gap_at.assign(sizes.contacts, 0);
+    for (auto* list : {&lookout.watched, &lookout.unknown}) list->assign(sizes.contacts, 0);
+    bounds.frame_gap_at.assign(sizes.contacts, 0);
+    bounds.expired.assign(sizes.contacts, 0);
+    for (auto* list : {&bounds.expired_groups, &bounds.missing_groups}) list->assign(sizes.groups, 0);
+    for (auto* flags : {&bounds.group_has_detour, &bounds.group_has_clearance, &bounds.group_has_lookout})
+        flags->assign(sizes.groups, 0);
+    return bounds;
+}
+
+NearState make_near_state(const StringSizes& sizes) {
+    NearState near;
+    if (sizes.response_stride == 0) return near;
+    const std::size_t count = sizes.contacts;
+    for (auto* array : {&near.rates_free, &near.impulses}) array->assign(count * sizes.response_stride, 0.0);
+    near.rates.assign(padded(count) * sizes.response_stride, 0.0);  // in either order
+    near.force_impulses.assign(2 * sizes.response_stride, 0.0);
+    near.lanes.assign(count * kernels::steps_per_run * lane_padding, 0.0);
+    near.force_rows.assign(2 * sizes.stride, 0.0);
+    near.displacement.assign(sizes.stride, 0.0);
+    near.velocity.assign(sizes.stride, 0.0);
+    for (auto* array : {&near.gap, &near.gap_before, &near.impulse})
+        array->assign(padded(sizes.contacts), 0.0);
+    near.rows.assign(count, nullptr);
+    near.struck.assign(count, 0);
+    return near;
+}
+
+ShortFrameState make_short_frame_state(const StringSizes& sizes) {
+    ShortFrameState frame;
+    const std::size_t contacts = sizes.short_contacts;
+    if (contacts == 0) return frame;
+    frame.velocities.assign(sizes.short_steps * sizes.stride, 0.0);
+    frame.rates.assign(sizes.short_steps * contacts, 0.0);
+    frame.impulses.assign(sizes.short_steps * contacts, 0.0);
+    frame.struck.assign(contacts, 0);
+    frame.step_response.assign(sizes.short_steps * sizes.contacts * contacts, 0.0);
+    frame.response_known.assign(sizes.contacts, 0);
+    frame.table.values.assign(contacts * contacts, 0.0);
+    for (auto* array : {&frame.table.sign, &frame.table.scale, &frame.table.solution})
+        array->assign(contacts, 0.0);
+    for (auto* list : {&frame.table.active, &frame.table.kept}) list->assign(contacts, 0);
+    return frame;
+}
+
+}  // namespace
+
+StringSizes sizes_of(const StringModel& model) {
+    const std::size_t groups = std::max<std::size_t>(model.certificate.group_begin.size(), 1) - 1;
+    const std::size_t response_stride = model.response.empty() ? 0 : model.response_stride;
+    const bool is_short = has_short_frames(model);
+    return {model.stride,
+            model.contact_count,
+            groups,
+            response_stride,
+            is_short ? model.contact_stride : 0,
+            is_short ? model.steps_per_frame : 0};
+}
+
+StringSizes larger(const StringSizes& a, const StringSizes& b) {
+    return {std::max(a.stride, b.stride),
+            std::max(a.contacts, b.contacts),
+            std::max(a.groups, b.groups),
+            std::max(a.response_stride, b.response_stride),
+            std::max(a.short_contacts, b.short_contacts),
+            std::max(a.short_steps, b.short_steps)};
+}
+
+StringState allocate_string_state(const StringSizes& sizes) {
+    StringState state;
+    for (auto* array :
+         {&state.displacement, &state.velocity, &state.displacement_before, &state.velocity_before,
+          &state.displacement_flown, &state.velocity_flown, &state.excitation.held, &state.excitation.ramp}) {
+        array->assign(sizes.stride, 0.0);
+    }
+    state.contact = make_contact_state(sizes);
+    state.lcp = make_lcp_workspace(sizes.contacts);
+    state.certificate = make_certificate_state(sizes);
+    state.near_frame = make_near_state(sizes);
+    state.short_frame = make_short_frame_state(sizes);
+    return state;
+}
+
+StringState make_string_state(const StringModel& model, Metering metering, Skipping skipping) {
+    StringState state = allocate_string_state(sizes_of(model));
+    state.metering = metering;
+    state.skipping = skipping;
+    reset(model, state);
+    return state;
+}
+
+void accumulate(const Counters& more, Counters& sum) noexcept {
+    sum.steps += more.steps;
+    sum.candidates += more.candidates;
+    sum.impulses += more.impulses;
+    sum.solves += more.solves;
+    sum.truncated_solves += more.truncated_solves;
+    sum.flown_frames += more.flown_frames;
+    sum.near_frames += more.near_frames;
+    sum.asleep_frames += more.asleep_frames;
+    sum.nonfinite_resets += more.nonfinite_resets;
+    sum.worst_residual_m = std::max(sum.worst_residual_m, more.worst_residual_m);
+    sum.worst_penetration_m = std::max(sum.worst_penetration_m, more.worst_penetration_m);
+}
+
+SceneState make_state(const SceneModel& model, Metering metering, Skipping skipping) {
+    SceneState state;
+    for (const StringModel& string : model.strings) {
+        state.strings.push_back(make_string_state(string, metering, skipping));
+    }
+    return state;
+}
+
+void reset(const StringModel& model, StringState& state) noexcept {
+    std::copy(model.initial_displacement.begin(), model.initial_displacement.end(),
+              state.displacement.begin());
+    std::copy(model.initial_velocity.begin(), model.initial_velocity.end(), state.velocity.begin());
+    clear_excitation(state);
+    state.frame = 0;
+    state.leaves_obstacles = false;
+    state.certificate.strongest_speed = 0;
+    state.certificate.strongest_extent = 0;
+    place_obstacles(model, state.contact);
+    notice_change(model, state);
+    state.counters = {};
+    state.energy = {};
+    state.energy.initial = energy(model, state);
+    state.energy.highest = state.energy.initial;
+}
+
+void put_to_rest(const StringModel& model, StringState& state) noexcept {
+    std::copy(model.rest_displacement.begin(), model.rest_displacement.end(), state.displacement.begin());
+    std::fill(state.velocity.begin(), state.velocity.end(), 0.0);
+    clear_excitation(state);
+    place_obstacles(model, state.contact);
+    notice_change(model, state);
+}
+
+void notice_change(const StringModel& model, StringState& state) noexcept {
+    state.contact.left_open = 0;
+    state.lcp.factored = nullptr;
+    state.short_frame.table.of = nullptr;
+    state.active_modes = model.stride;
+    state.asleep = false;
+    choose_all_contacts(model, state);
+    place_gaps(model, state);
+    forget_bounds(state);
+}
+
+void leave_obstacles(StringState& state) noexcept {
+    state.leaves_obstacles = true;
+    forget_bounds(state);
+}
+
+}  // namespace jawari

@@ -1,0 +1,81 @@
+#include "string/frame/short_frame.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "string/broad_phase/forecast.h"
+#include "string/broad_phase/gap_bounds.h"
+#include "string/broad_phase/gap_certificate.h"
+#include "string/contact/contact_stage.h"
+#include "string/frame/short_frame_contacts.h"
+#include "string/frame/short_frame_modes.h"
+
+namespace jawari {
+namespace {
+
+/// Gaps go on from frame to frame; this often they are taken from the modes again, so that rounding does not
+/// gather.
+constexpr std::uint64_t gap_period = 64;
+
+/// contact.gap and gap_before of all contacts at the frame's start.
+void place_all_gaps(const StringModel& model, StringState& state) {
+    ContactState& contact = state.contact;
+    choose_all_contacts(model, state);
+    place_gaps(model, state);
+    // What lies between the contacts and the padding's end never closes.
+    const auto count = static_cast<std::ptrdiff_t>(model.contact_count);
+    const auto stride = static_cast<std::ptrdiff_t>(model.contact_stride);
+    for (auto* array : {&contact.gap, &contact.gap_before})
+        std::fill(array->begin() + count, array->begin() + stride, 1.0);
+}
+
+}  // namespace
+
+void set_short_frames(StringModel& model) {
+    const bool fits = model.contact_count <= contacts_with_own_bounds &&
+                      model.contact_stride * model.steps_per_frame <= largest_short_frame;
+    if (!fits || model.step_response.empty() || model.law != ImpactLaw::Signorini) return;
+    model.contact_columns.assign(model.stride * model.contact_stride, 0.0);
+    for (std::size_t c = 0; c < model.contact_count; ++c) {
+        for (std::size_t k = 0; k < model.stride; ++k)
+            model.contact_columns[k * model.contact_stride + c] = model.contact_rows[c * model.stride + k];
+    }
+}
+
+bool solve_short_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    ShortFrameState& frame = state.short_frame;
+    if (frame.gaps_at != state.frame || state.frame % gap_period == 0) place_all_gaps(model, state);
+    bool finite = kernels::run_freely(model, state);
+    finite = kernels::solve_steps(model, state) && finite;
+    std::vector<double>& claims = state.certificate.open_until;  // none, until note_short_frame()
+    std::fill(claims.begin(), claims.end(), -std::numeric_limits<double>::infinity());
+    const bool struck = frame.struck_count > 0;
+    if (struck) {
+        state.active_modes = model.stride;
+        state.certificate.outdated = true;
+        forget_low_gaps(state);
+        finite = kernels::add_response(model, state) && finite;
+    }
+    state.certificate.struck = struck;
+    frame.gaps_at = state.frame + 1;
+    state.excitation.elapsed += model.steps_per_frame;
+    state.counters.steps += model.steps_per_frame;
+    state.counters.near_frames += 1;
+    return finite;
+}
+
+void forget_responses(StringState& state) JAWARI_REALTIME {
+    std::vector<std::uint8_t>& known = state.short_frame.response_known;
+    std::fill(known.begin(), known.end(), std::uint8_t{0});
+}
+
+void note_short_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    CertificateState& bounds = state.certificate;
+    for (std::size_t c = 0; c < model.contact_count; ++c) {
+        bounds.frame_gap[c] = state.contact.gap[c];
+        bounds.frame_gap_at[c] = state.frame;
+        bounds.open_until[c] = bounds.group_odometer[group_of(model, c)] + state.contact.gap[c];
+    }
+}
+
+}  // namespace jawari

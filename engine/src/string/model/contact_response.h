@@ -1,0 +1,35 @@
+// What an impulse at one contact does to the gaps of all contacts, read from the model's tables: at once (the
+// Delassus operator) and within a frame.
+#pragma once
+
+#include <cstddef>
+
+#include "jawari/detail/lcp.h"
+#include "jawari/detail/string_model.h"
+
+namespace jawari {
+
+/// A = h theta D
+inline ContactOperator compliance_of(const StringModel& model) {
+    return {model.compliance.data(), model.contact_stride,
+            model.grid_node.empty() ? nullptr : model.grid_node.data()};
+}
+
+/// Gap rate of a contact n steps after 1 N s at the struck one: direct[n] - mirrored[n] [1/kg].
+struct Response {
+    const double* direct;
+    const double* mirrored;
+};
+
+inline Response response_of(const StringModel& model, std::size_t struck, std::size_t contact) {
+    const double* table = model.response.data();
+    const std::size_t stride = model.response_stride;
+    if (model.grid_node.empty()) {
+        const std::size_t nothing = model.contact_count * model.contact_count;  // the last row is zero
+        return {table + (struck * model.contact_count + contact) * stride, table + nothing * stride};
+    }
+    const auto [apart, together] = grid_distances(model.grid_node[struck], model.grid_node[contact]);
+    return {table + apart * stride, table + together * stride};
+}
+
+}  // namespace jawari

@@ -1,0 +1,31 @@
+#include "base/error.h"
+
+#include <cstdio>
+#include <cstring>
+
+#include "base/text.h"
+
+namespace jawari::host {
+
+Error invalid_input(const std::string& file, const Failure& failure) {
+    return {ExitCode::InvalidInput, file + ": " + failure.line()};
+}
+
+Error usage_error(const std::string& option, const std::string& value, const std::string& allowed) {
+    return {ExitCode::Usage, Failure{option, value, allowed}.line()};
+}
+
+Error file_error(const std::string& path, int system_error) {
+    return file_error(path, std::strerror(system_error));
+}
+
+Error file_error(const std::string& path, const std::string& reason) {
+    return {ExitCode::File, path + ": " + reason};
+}
+
+void report(const Error& error) {
+    const std::string line = printable(error.message) + "\n";
+    std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+}  // namespace jawari::host

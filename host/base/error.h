@@ -1,0 +1,57 @@
+// Errors of the host: one line for the user and the exit code that goes with it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "base/exit_codes.h"
+#include "jawari/result.h"
+
+namespace jawari::host {
+
+struct Error {
+    ExitCode code = ExitCode::Internal;
+    std::string message;  ///< one line, without a newline
+};
+
+/// Empty means success: `if (auto error = write(...)) return *error;`
+using MaybeError = std::optional<Error>;
+
+/// A value or an Error.
+template <class T>
+class Outcome {
+  public:
+    Outcome(T value) : content_(std::move(value)) {}      // NOLINT(google-explicit-constructor)
+    Outcome(Error error) : content_(std::move(error)) {}  // NOLINT(google-explicit-constructor)
+
+    [[nodiscard]] bool ok() const { return std::holds_alternative<T>(content_); }
+    explicit operator bool() const { return ok(); }
+
+    /// Precondition: ok().
+    [[nodiscard]] T& value() { return std::get<T>(content_); }
+    [[nodiscard]] const T& value() const { return std::get<T>(content_); }
+    /// Precondition: !ok().
+    [[nodiscard]] const Error& error() const { return std::get<Error>(content_); }
+
+  private:
+    std::variant<T, Error> content_;
+};
+
+/// An invalid input file: `bass.json: strings[0].length_m: -1 (allowed: 0.001 to 100)`.
+Error invalid_input(const std::string& file, const Failure& failure);
+
+/// A wrong command line: `--theta: 3 (allowed: 0.5 to 1)`.
+Error usage_error(const std::string& option, const std::string& value, const std::string& allowed);
+
+/// A failed system call on a file: `out/x.csv: No such file or directory`. `system_error`: a value of errno.
+Error file_error(const std::string& path, int system_error);
+
+/// A file that cannot be used for a reason that the system has no number for.
+Error file_error(const std::string& path, const std::string& reason);
+
+/// Writes the message to standard error as exactly one line, whatever it contains.
+void report(const Error& error);
+
+}  // namespace jawari::host

@@ -1,0 +1,142 @@
+#include "base/output_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <utility>
+
+namespace jawari::host {
+
+namespace {
+
+constexpr std::size_t buffer_bytes = std::size_t{1} << 18U;
+
+/// The mode a new file would get from open(); mkstemp() is stricter than users expect of an output file.
+/// Asked once: the mask can only be read by setting it, which two threads must not do at a time.
+mode_t ordinary_mode() {
+    static const mode_t mode = [] {
+        const mode_t mask = umask(0);
+        umask(mask);
+        return static_cast<mode_t>(0666U & ~mask);
+    }();
+    return mode;
+}
+
+/// Follows a symbolic link, also one whose target does not exist yet.
+std::string follow_links(const std::string& path) {
+    std::error_code failed;
+    const auto resolved = std::filesystem::weakly_canonical(path, failed);
+    return failed ? path : resolved.string();
+}
+
+}  // namespace
+
+Outcome<OutputFile> OutputFile::create(const std::string& path) {
+    OutputFile file;
+    file.path_ = path;
+    if (path == "-") {
+        file.path_ = "standard output";
+        file.descriptor_ = dup(STDOUT_FILENO);
+        if (file.descriptor_ < 0) return file_error(file.path_, errno);
+        return file;
+    }
+    struct stat status {};
+    if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
+        if (S_ISDIR(status.st_mode)) return file_error(path, EISDIR);
+        file.descriptor_ = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+        if (file.descriptor_ < 0) return file_error(path, errno);
+        return file;
+    }
+    if (auto error = file.create_temporary()) return *error;
+    return file;
+}
+
+MaybeError OutputFile::create_temporary() {
+    if (path_.empty() || path_.back() == '/') return file_error(path_, path_.empty() ? ENOENT : EISDIR);
+    final_path_ = follow_links(path_);
+    struct stat status {};
+    const bool exists = stat(final_path_.c_str(), &status) == 0;
+    if (!exists && errno != ENOENT) return file_error(path_, errno);
+    if (exists && access(final_path_.c_str(), W_OK) != 0) return file_error(path_, errno);
+
+    const auto directory = std::filesystem::path(final_path_).parent_path();
+    std::string name =
+        ((directory.empty() ? std::filesystem::path(".") : directory) / ".jawari-XXXXXX").string();
+    descriptor_ = mkostemp(name.data(), O_CLOEXEC);
+    if (descriptor_ < 0) return file_error(path_, errno);
+    temporary_path_ = name;
+    guard_ = TemporaryFileGuard(temporary_path_);
+    if (fchmod(descriptor_, exists ? (status.st_mode & 07777U) : ordinary_mode()) != 0)
+        return file_error(path_, errno);
+    return std::nullopt;
+}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      final_path_(std::move(other.final_path_)),
+      temporary_path_(std::exchange(other.temporary_path_, {})),
+      guard_(std::move(other.guard_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      buffer_(std::exchange(other.buffer_, {})) {}
+
+OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
+    if (this == &other) return *this;
+    discard();
+    path_ = std::move(other.path_);
+    final_path_ = std::move(other.final_path_);
+    temporary_path_ = std::exchange(other.temporary_path_, {});
+    guard_ = std::move(other.guard_);
+    descriptor_ = std::exchange(other.descriptor_, -1);
+    buffer_ = std::exchange(other.buffer_, {});
+    return *this;
+}
+
+MaybeError OutputFile::write(std::string_view text) {
+    buffer_ += text;
+    return buffer_.size() >= buffer_bytes ? flush() : std::nullopt;
+}
+
+MaybeError OutputFile::flush() {
+    std::string_view left = buffer_;
+    while (!left.empty()) {
+        const ssize_t written = ::write(descriptor_, left.data(), left.size());
+        if (written < 0 && errno == EINTR) {
+            if (auto stop = interruption()) return stop;
+            continue;
+        }
+        if (written < 0) return file_error(path_, errno);
+        left.remove_prefix(static_cast<std::size_t>(written));
+    }
+    buffer_.clear();
+    return std::nullopt;
+}
+
+MaybeError OutputFile::commit() {
+    if (auto error = flush()) return error;
+    if (seekable() && fsync(descriptor_) != 0) return file_error(path_, errno);
+    if (::close(std::exchange(descriptor_, -1)) != 0) return file_error(path_, errno);
+    if (!seekable()) return std::nullopt;
+    if (std::rename(temporary_path_.c_str(), final_path_.c_str()) != 0) return file_error(path_, errno);
+    guard_.forget();
+    temporary_path_.clear();
+    return std::nullopt;
+}
+
+void OutputFile::discard() noexcept {
+    if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+    if (!temporary_path_.empty()) unlink(temporary_path_.c_str());
+    temporary_path_.clear();
+    guard_.forget();
+}
+
+bool is_folder(const std::string& path) {
+    std::error_code ignored;
+    return path.ends_with('/') || std::filesystem::is_directory(path, ignored);
+}
+
+}  // namespace jawari::host

@@ -1,0 +1,98 @@
+#include "commands/info/info_command.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "base/output_file.h"
+#include "base/sound_file.h"
+#include "cli/command_line.h"
+#include "commands/info/survey_text.h"
+#include "formats/words/quality_words.h"
+#include "instrument/program_presets.h"
+
+namespace jawari::host {
+
+namespace {
+
+const std::map<std::string, Quality> qualities = quality_words();
+
+MaybeError print(const std::string& text) {
+    auto output = OutputFile::create("-");
+    if (!output) return output.error();
+    if (auto error = output.value().write(text)) return error;
+    return output.value().commit();
+}
+
+int program_of(const std::string& name) {
+    const auto all = numbered_presets();
+    const auto found = std::find(all.begin(), all.end(), name);
+    return found == all.end() ? -1 : static_cast<int>(found - all.begin());
+}
+
+MaybeError list_presets(bool json) {
+    std::vector<ListedPreset> presets;
+    for (const NamedPreset& named : named_presets()) {
+        ListedPreset listed{named, "", "", 0, program_of(named.name)};
+        const auto preset = load_preset(named.path.empty() ? named.name : named.path);
+        if (preset) {
+            listed.title = preset.value().instrument.name;
+            listed.strings = preset.value().instrument.strings.size();
+        } else {
+            listed.problem = preset.error().message;
+        }
+        presets.push_back(listed);
+    }
+    return print(json ? list_json(presets) : list_text(presets));
+}
+
+struct InfoOptions {
+    std::string preset;
+    std::optional<Quality> quality;
+    double rate_hz = 48000;
+    bool json = false;
+};
+
+MaybeError show_info(const InfoOptions& options) {
+    InstrumentSettings settings;
+    settings.output_rate_hz = options.rate_hz;
+    settings.quality = options.quality.value_or(Quality::Live);
+    const auto survey = survey_preset(options.preset, settings);
+    if (!survey) return survey.error();
+    return print(options.json ? survey_json(survey.value()) : survey_text(survey.value()));
+}
+
+std::string folders_text() {
+    std::string text =
+        "A preset is looked for as a file, then in these folders as NAME.json, then among those built in:\n";
+    for (const PresetFolder& folder : preset_folders()) text += "  " + printable(folder.path) + "\n";
+    return text + "\nThe number is the preset's program in bank 1 (docs/formats/midi.md).";
+}
+
+}  // namespace
+
+void add_presets_command(CLI::App& app, Command& command) {
+    CLI::App* presets_app = app.add_subcommand("presets", "Lists the instruments");
+    const auto json = std::make_shared<bool>(false);
+    presets_app->add_flag("--json", *json, "As JSON");
+    presets_app->footer(folders_text());
+    presets_app->callback([json, &command] { command = [json] { return list_presets(*json); }; });
+}
+
+void add_info_command(CLI::App& app, Command& command) {
+    CLI::App* info_app = app.add_subcommand(
+        "info", "Says what an instrument is: strings, frets, modes, articulations, cost, parameters");
+    const auto options = std::make_shared<InfoOptions>();
+    info_app->add_option("preset", options->preset, "Preset file or name")->required()->type_name("PRESET");
+    info_app->add_flag("--json", options->json, "As JSON");
+    add_choice(*info_app, "--quality", options->quality, qualities, "live unless told");
+    info_app->add_option("--rate", options->rate_hz, "Output rate that it is compiled for, 48000 unless told")
+        ->type_name("HZ")
+        ->check(number_between(lowest_render_rate_hz, highest_render_rate_hz));
+    info_app->footer("Compiles the instrument and plays all its strings for a second to measure their cost.");
+    info_app->callback([options, &command] { command = [options] { return show_info(*options); }; });
+}
+
+}  // namespace jawari::host

@@ -1,0 +1,172 @@
+#include "commands/play/control.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include "base/text.h"
+#include "formats/tuning/tuning.h"
+#include "instrument/preset_library.h"
+#include "instrument/program_presets.h"
+#include "midi/guitar_mode.h"
+#include "midi/read_midi_map.h"
+
+namespace jawari::host {
+
+namespace {
+
+constexpr std::uint8_t medium_release = 64;
+
+Outcome<InstrumentSettings> instrument_settings(const PlayOptions& options, double rate_hz) {
+    InstrumentSettings settings;
+    settings.output_rate_hz = rate_hz;
+    settings.quality = options.quality.value_or(Quality::Live);
+    settings.move_frets = options.move_frets.value_or(false);
+    settings.rungs = !options.fixed_quality.value_or(false);
+    if (!options.tuning) return settings;
+    const auto tuning = load_tuning(*options.tuning, options.keyboard_map.value_or(""));
+    if (!tuning) return tuning.error();
+    settings.tuning = tuning.value();
+    return settings;
+}
+
+std::string first_preset(const PlayOptions& options) {
+    const std::string preset = options.preset.value_or(play_defaults::preset);
+    return preset == play_defaults::preset ? play_defaults::first_preset : preset;
+}
+
+double gain_factor(double gain_db) {
+    return std::pow(10.0, gain_db / 20);
+}
+
+/// The first channel of guitar mode from 1, 0 without it: as `jawari render` has it.
+int guitar_channel(const PlayOptions& options, const InstrumentDescription& instrument) {
+    return options.guitar_channel.value_or(instrument.play == PlayMode::Guitar ? 1 : 0);
+}
+
+Outcome<LiveSettings> live_settings(const PlayOptions& options, const InstrumentDescription& instrument,
+                                    double rate_hz, std::size_t frames) {
+    LiveSettings settings;
+    settings.rate_hz = rate_hz;
+    settings.most_frames = frames;
+    settings.gain = gain_factor(options.gain_db.value_or(0));
+    settings.limiter_dbfs = options.limiter_dbfs;
+    settings.overload.enabled = !options.fixed_quality.value_or(false);
+    for (const auto& [parameter, value] : options.parameters)
+        if (parameter == ParameterId::BendRange) settings.interpreter.bend_range_semitones = value;
+    if (options.midi_map) {
+        const auto map = load_midi_map(*options.midi_map);
+        if (!map) return map.error();
+        settings.interpreter.map = map.value();
+    }
+    const int channel = guitar_channel(options, instrument);
+    if (channel > 0) {
+        if (auto error = set_guitar_mode(instrument, channel - 1, settings.interpreter)) return *error;
+    }
+    return settings;
+}
+
+}  // namespace
+
+Outcome<std::unique_ptr<Performance>> Performance::create(const PlayOptions& options, double rate_hz,
+                                                          std::size_t frames) {
+    auto instruments = instrument_settings(options, rate_hz);
+    if (!instruments) return instruments.error();
+    const auto preset = load_with(first_preset(options), instruments.value());
+    if (!preset) return preset.error();
+    const auto live = live_settings(options, preset.value().instrument, rate_hz, frames);
+    if (!live) return live.error();
+
+    std::unique_ptr<Performance> performance(new Performance(live.value(), std::move(instruments.value())));
+    performance->guitar_channel_ = guitar_channel(options, preset.value().instrument);
+    performance->follows_programs_ = options.preset.value_or(play_defaults::preset) == play_defaults::preset;
+    performance->port_ = performance->player_.add_port();
+    if (auto error = performance->play_preset(first_preset(options))) return *error;
+    for (const auto& [parameter, value] : options.parameters) {
+        if (parameter == ParameterId::BendRange) continue;
+        if (auto error = performance->set_parameter(parameter, value)) return *error;
+    }
+    return performance;
+}
+
+/// The interpreter's strings are fixed when the player is made.
+MaybeError Performance::check_guitar(const InstrumentDescription& instrument) const {
+    if (guitar_channel_ == 0) return std::nullopt;
+    InterpreterSettings wanted = guitar_;
+    if (auto error = set_guitar_mode(instrument, guitar_channel_ - 1, wanted)) return error;
+    if (wanted.guitar_strings == guitar_.guitar_strings && wanted.guitar_string == guitar_.guitar_string)
+        return std::nullopt;
+    return Error{ExitCode::Usage, "guitar mode: the strings are others; start jawari play with this preset"};
+}
+
+MaybeError Performance::play_preset(const std::string& preset) {
+    const auto instrument = load_and_compile(preset, instruments_);
+    if (!instrument) return instrument.error();
+    if (auto error = check_guitar(instrument.value()->preset.instrument)) return error;
+    constexpr int most_attempts = 100;
+    for (int attempt = 0; !player_.publish(instrument.value()); ++attempt) {
+        if (attempt == most_attempts) return Error{ExitCode::Device, "the audio thread takes no instrument"};
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        player_.collect();
+    }
+    preset_ = preset;
+    return std::nullopt;
+}
+
+MaybeError Performance::send(const LiveCommand& command) {
+    if (player_.send(command)) return std::nullopt;
+    return Error{ExitCode::Device, "the audio thread takes no more commands"};
+}
+
+MaybeError Performance::set_parameter(ParameterId parameter, double value) {
+    if (parameter == ParameterId::BendRange)
+        return Error{ExitCode::Usage, "bend_range: set by RPN 0, or --set when jawari play starts"};
+    LiveCommand command;
+    command.kind = LiveCommand::Kind::SetParameter;
+    command.parameter = parameter;
+    command.value = value;
+    return send(command);
+}
+
+MaybeError Performance::set_gain(double gain_db) {
+    LiveCommand command;
+    command.kind = LiveCommand::Kind::SetGain;
+    command.value = gain_factor(gain_db);
+    return send(command);
+}
+
+MaybeError Performance::panic() {
+    notes_.clear();
+    LiveCommand command;
+    command.kind = LiveCommand::Kind::Panic;
+    return send(command);
+}
+
+void Performance::note(int key, int velocity, double seconds, std::int64_t now_ns) {
+    const auto byte = [](int value) { return static_cast<std::uint8_t>(value); };
+    port_->push({{byte(static_cast<int>(MessageKind::NoteOn)), byte(key), byte(velocity)}, 0});
+    notes_.push_back({key, now_ns + std::llround(seconds * 1e9)});
+}
+
+void Performance::tick(std::int64_t now_ns) {
+    const auto is_over = [&](const TimedNote& note) { return note.end_ns <= now_ns; };
+    for (const TimedNote& note : notes_)
+        if (is_over(note))
+            port_->push({{static_cast<std::uint8_t>(MessageKind::NoteOff),
+                          static_cast<std::uint8_t>(note.key), medium_release},
+                         0});
+    std::erase_if(notes_, is_over);
+    player_.collect();
+}
+
+std::optional<std::string> Performance::asked_preset() {
+    const auto request = player_.program_request();
+    if (!request || !follows_programs_ || request->channel == drum_channel) return std::nullopt;
+    const auto preset = program_preset(request->bank, request->program);
+    if (!preset || *preset == preset_ || !preset_exists(std::string(*preset))) return std::nullopt;
+    return std::string(*preset);
+}
+
+}  // namespace jawari::host

@@ -1,0 +1,50 @@
+#include "commands/render/audio_file.h"
+
+#include <sndfile.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace jawari::host {
+
+namespace {
+
+SampleEncoding encoding(SampleFormat format) {
+    switch (format) {
+        case SampleFormat::Pcm16:
+            return {SF_FORMAT_PCM_16, 2};
+        case SampleFormat::Pcm24:
+            return {SF_FORMAT_PCM_24, 3};
+        case SampleFormat::Float:
+            break;
+    }
+    return {SF_FORMAT_FLOAT, 4};
+}
+
+}  // namespace
+
+Outcome<AudioFile> AudioFile::create(const std::string& path, std::size_t channels,
+                                     const AudioFormat& format) {
+    auto file = OutputFile::create(path);
+    if (!file) return file.error();
+    auto sound = SoundFile::create(std::move(file.value()), format.rate_hz, channels,
+                                   encoding(format.samples), format.most_frames, format.tags);
+    if (!sound) return sound.error();
+    return AudioFile(std::move(sound.value()), format.samples);
+}
+
+MaybeError AudioFile::write(std::span<const std::span<const double>> channels) {
+    const std::size_t frames = channels.empty() ? 0 : channels.front().size();
+    interleaved_.clear();
+    for (std::size_t n = 0; n < frames; ++n) {
+        for (const auto& channel : channels) {
+            const double sample = channel[n];
+            if (std::abs(sample) > 1) clipped_ += 1;
+            interleaved_.push_back(format_ == SampleFormat::Float ? sample : std::clamp(sample, -1.0, 1.0));
+        }
+    }
+    return sound_.write(interleaved_);
+}
+
+}  // namespace jawari::host

@@ -1,0 +1,48 @@
+// What the command line of `jawari render` says.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/sound_file.h"
+#include "instrument/quality.h"
+#include "jawari/parameters.h"
+
+namespace jawari::host {
+
+struct RenderOptions {
+    std::vector<std::string> midi;  ///< files; `-`: standard input
+    std::string preset = "auto";    ///< a file or a name; auto: each channel's program chooses
+    std::string out;                ///< a WAV file; `-`: standard output; a folder for several files
+    std::string stems;              ///< a WAV file, or a folder with a slash at its end; empty: none
+    std::string stats;              ///< JSON; empty: none; `-`: standard output
+    std::string plot;               ///< waveform and spectrogram; empty: none
+    std::uint32_t rate_hz = 48000;
+    std::optional<SampleFormat> format;  ///< nothing: PCM of 24 bits
+    double gain_db = 0;
+    std::optional<double> tail_s;  ///< after the last event; nothing: until the sound has died away
+    double silence_dbfs = -90;     ///< what counts as died away
+    std::optional<Quality> quality;
+    std::optional<std::uint64_t> seed;  ///< of humanise(); nothing: exactly as written
+    std::optional<double> limiter_dbfs;
+    std::string tuning;        ///< a .scl file; empty: as the presets are tuned
+    std::string keyboard_map;  ///< a .kbm file; empty: the default map
+    bool move_frets = false;
+    std::string midi_map;                                    ///< JSON; empty: the default map
+    int guitar_channel = 0;                                  ///< 1 to 16; 0: no guitar mode
+    std::vector<std::pair<ParameterId, double>> parameters;  ///< in each parameter's unit
+    unsigned jobs = 0;                                       ///< 0: one a processor
+};
+
+inline constexpr const char* automatic_preset = "auto";
+inline constexpr double longest_tail_s = 600;
+
+/// `--tail auto` ends once the sound has stayed below the silence for this long, at the latest after
+/// automatic_tail_limit_s.
+inline constexpr double silence_s = 0.1;
+inline constexpr double automatic_tail_limit_s = 60;
+
+}  // namespace jawari::host

@@ -1,0 +1,244 @@
+#include "commands/render/render.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <future>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "base/interrupt.h"
+#include "base/output_file.h"
+#include "base/text.h"
+#include "commands/render/progress_board.h"
+#include "commands/render/render_job.h"
+#include "formats/tuning/tuning.h"
+#include "instrument/preset_library.h"
+#include "instrument/program_presets.h"
+#include "midi/guitar_mode.h"
+#include "midi/read_midi_map.h"
+
+namespace jawari::host {
+
+namespace {
+
+// ------------------------------------------------------------------------------------------ the command line
+
+MaybeError check_several(const RenderOptions& options) {
+    if (options.midi.size() == 1) return std::nullopt;
+    if (!is_folder(options.out)) return usage_error("--out", options.out, "a folder, for several MIDI files");
+    const std::pair<const char*, const std::string*> single[] = {
+        {"--stats", &options.stats}, {"--plot", &options.plot}, {"--stems", &options.stems}};
+    for (const auto& [option, value] : single)
+        if (!value->empty()) return usage_error(option, *value, "only with one MIDI file");
+    if (std::count(options.midi.begin(), options.midi.end(), "-") > 0)
+        return usage_error("MIDI", "-", "standard input only as the one file");
+    return std::nullopt;
+}
+
+MaybeError check_names(const RenderOptions& options) {
+    std::set<std::string> taken;
+    const std::pair<const char*, const std::string*> outputs[] = {{"--out", &options.out},
+                                                                  {"--stems", &options.stems},
+                                                                  {"--stats", &options.stats},
+                                                                  {"--plot", &options.plot}};
+    for (const auto& [option, value] : outputs) {
+        const bool shared = !value->empty() && !is_folder(*value) && !taken.insert(*value).second;
+        if (shared) return usage_error(option, *value, "another name than that of the other outputs");
+    }
+    return std::nullopt;
+}
+
+MaybeError check_dependencies(const RenderOptions& options) {
+    if (options.tuning.empty() && !options.keyboard_map.empty())
+        return usage_error("--keyboard-map", options.keyboard_map, "only with --tuning");
+    if (options.tuning.empty() && options.move_frets)
+        return usage_error("--move-frets", "given", "only with --tuning");
+    if (options.guitar_channel > 0 && options.preset == automatic_preset)
+        return usage_error("--guitar-mode", std::to_string(options.guitar_channel),
+                           "only with --preset NAME");
+    return std::nullopt;
+}
+
+/// One job a file; in a folder each WAV file has its MIDI file's name.
+Outcome<std::vector<RenderJob>> jobs_of(const RenderOptions& options) {
+    std::vector<RenderJob> jobs;
+    std::set<std::string> taken;
+    for (const std::string& midi : options.midi) {
+        if (options.out == "-" || !is_folder(options.out)) {
+            jobs.push_back({midi, options.out});
+            continue;
+        }
+        const std::string stem = midi == "-" ? "standard-input" : std::filesystem::path(midi).stem().string();
+        const std::string out = (std::filesystem::path(options.out) / (stem + ".wav")).string();
+        if (!taken.insert(out).second)
+            return usage_error("MIDI", midi,
+                               "files of different names, for they become WAV files in one folder");
+        jobs.push_back({midi, out});
+    }
+    return jobs;
+}
+
+// ------------------------------------------------------------ what all share
+
+Outcome<InstrumentSettings> instrument_settings(const RenderOptions& options) {
+    InstrumentSettings settings;
+    settings.output_rate_hz = options.rate_hz;
+    settings.quality = options.quality.value_or(Quality::Live);
+    settings.move_frets = options.move_frets;
+    if (options.tuning.empty()) return settings;
+    const auto tuning = load_tuning(options.tuning, options.keyboard_map);
+    if (!tuning) return tuning.error();
+    settings.tuning = tuning.value();
+    return settings;
+}
+
+std::optional<std::string> general_midi_preset(int channel, int bank, int program) {
+    if (channel == drum_channel) return std::nullopt;
+    const auto preset = program_preset(bank, program);
+    if (!preset || !preset_exists(std::string(*preset))) return std::nullopt;
+    return std::string(*preset);
+}
+
+/// The engine reads the other parameters; the bend range belongs to the interpreter.
+void set_parameters(const RenderOptions& options, ScoreRules& rules) {
+    for (const auto& [parameter, value] : options.parameters) {
+        if (parameter == ParameterId::BendRange) {
+            rules.interpreter.bend_range_semitones = value;
+        } else {
+            rules.parameters.emplace_back(parameter, value);
+        }
+    }
+}
+
+Outcome<ScoreRules> score_rules(const RenderOptions& options, const InstrumentSettings& instruments) {
+    ScoreRules rules;
+    rules.preset = options.preset;
+    set_parameters(options, rules);
+    if (!options.midi_map.empty()) {
+        const auto map = load_midi_map(options.midi_map);
+        if (!map) return map.error();
+        rules.interpreter.map = map.value();
+    }
+    if (options.preset == automatic_preset) {
+        rules.choose = general_midi_preset;
+        return rules;
+    }
+    const auto preset = load_with(options.preset, instruments);
+    if (!preset) return preset.error();
+    const InstrumentDescription& instrument = preset.value().instrument;
+    if (options.guitar_channel > 0 || instrument.play == PlayMode::Guitar) {
+        const int first = std::max(1, options.guitar_channel) - 1;
+        if (auto error = set_guitar_mode(instrument, first, rules.interpreter)) return *error;
+    }
+    return rules;
+}
+
+// ----------------------------------------------------------------------------------------------- the work
+
+MaybeError print_summary(const RenderJob& job, const RenderOptions& options, const RenderedJob& result) {
+    if (!options.stats.empty() || options.out == "-") return std::nullopt;
+    auto output = OutputFile::create("-");
+    if (!output) return output.error();
+    std::string text = stats_summary(result.stats);
+    if (options.midi.size() > 1) text = printable(job.out) + "\n" + text;
+    if (auto error = output.value().write(text)) return error;
+    return output.value().commit();
+}
+
+void print_messages(const RenderedJob& result) {
+    for (const std::string& message : result.messages) std::fprintf(stderr, "%s\n", message.c_str());
+}
+
+/// Workers take jobs in order until none is left.
+class Workers {
+  public:
+    Workers(const std::vector<RenderJob>& jobs, const RenderContext& context)
+        : jobs_(jobs), context_(context), board_(jobs.size()), results_(jobs.size()) {}
+
+    void run(std::size_t threads) {
+        std::vector<std::future<void>> running;
+        for (std::size_t i = 1; i < threads; ++i)
+            running.push_back(std::async(std::launch::async, [this] { work(); }));
+        work();
+        for (auto& each : running) each.get();  // hands on what a thread may have thrown
+        board_.clear();
+    }
+
+    [[nodiscard]] const std::optional<Outcome<RenderedJob>>& result(std::size_t job) const {
+        return results_[job];
+    }
+
+  private:
+    void work() {
+        for (std::size_t job = next_++; job < jobs_.size(); job = next_++) {
+            if (interruption()) return;
+            results_[job] = render_job(jobs_[job], context_,
+                                       [this, job](double fraction) { board_.update(job, fraction); });
+            board_.update(job, 1);
+        }
+    }
+
+    const std::vector<RenderJob>& jobs_;
+    const RenderContext& context_;
+    ProgressBoard board_;
+    std::vector<std::optional<Outcome<RenderedJob>>> results_;
+    std::atomic<std::size_t> next_{0};
+};
+
+/// Files that were finished before the signal are there.
+Error interrupted(Error error, std::size_t jobs, const Workers& workers) {
+    std::size_t written = 0;
+    for (std::size_t i = 0; i < jobs; ++i) written += workers.result(i) && workers.result(i)->ok() ? 1 : 0;
+    if (written > 0)
+        error.message = "jawari: interrupted, " + std::to_string(written) + " of " + std::to_string(jobs) +
+                        " files were written";
+    return error;
+}
+
+MaybeError print_results(const std::vector<RenderJob>& jobs, const RenderOptions& options,
+                         const Workers& workers) {
+    MaybeError last;
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        const auto& result = workers.result(i);
+        if (!result) continue;
+        if (!*result) {
+            if (last) report(*last);
+            last = result->error();
+            continue;
+        }
+        print_messages(result->value());
+        if (auto error = print_summary(jobs[i], options, result->value())) return error;
+    }
+    return last;
+}
+
+}  // namespace
+
+MaybeError render(const RenderOptions& options) {
+    for (const auto check : {check_several, check_names, check_dependencies})
+        if (auto error = check(options)) return error;
+    const auto jobs = jobs_of(options);
+    if (!jobs) return jobs.error();
+    const auto settings = instrument_settings(options);
+    if (!settings) return settings.error();
+    const auto rules = score_rules(options, settings.value());
+    if (!rules) return rules.error();
+    InstrumentCache instruments(settings.value());
+    const RenderContext context{options, rules.value(), instruments};
+
+    Workers workers(jobs.value(), context);
+    const std::size_t wanted =
+        options.jobs > 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
+    workers.run(std::min(wanted, jobs.value().size()));
+    if (auto stop = interruption()) return interrupted(*std::move(stop), jobs.value().size(), workers);
+    return print_results(jobs.value(), options, workers);
+}
+
+}  // namespace jawari::host

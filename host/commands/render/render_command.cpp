@@ -1,0 +1,170 @@
+#include "commands/render/render_command.h"
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "base/text.h"
+#include "cli/command_line.h"
+#include "commands/render/options.h"
+#include "commands/render/render.h"
+#include "formats/words/quality_words.h"
+#include "instrument/preset_library.h"
+
+namespace jawari::host {
+
+namespace {
+
+const std::map<std::string, SampleFormat> formats{
+    {"pcm16", SampleFormat::Pcm16}, {"pcm24", SampleFormat::Pcm24}, {"float", SampleFormat::Float}};
+const std::map<std::string, Quality> qualities = quality_words();
+
+std::string footer() {
+    std::vector<std::string> names;
+    for (const NamedPreset& preset : named_presets()) names.push_back(preset.name);
+    return "MIDI is a standard MIDI file of type 0 or 1; - is standard input. PRESET is a JSON file "
+           "(docs/formats/preset.md) or\na name: " +
+           join(names) +
+           ".\n"
+           "With auto each channel is an instrument of its own, which the channel's programs choose "
+           "(docs/formats/midi.md); with a preset\nall channels play one instrument. Notes outside its range "
+           "are "
+           "ignored and counted.\n\n"
+           "Examples:\n"
+           "  jawari render song.mid -o song.wav\n"
+           "  jawari render song.mid --preset bass-fretted -o song.wav --plot song.png\n"
+           "  jawari render song.mid --preset my-bass.json -o song.wav --rate 96000 --format float --tail 2\n"
+           "  jawari render song.mid -o song.wav --stems stems/ --set palm_mute=0.3 --limiter -1\n"
+           "  jawari render *.mid -o out/ --jobs 4\n"
+           "  jawari render - -o - --preset bass-fretted < song.mid | aplay\n\n"
+           "Exit codes: 0 done; 2 wrong command line; 3 invalid input file; 4 a file cannot be read or "
+           "written;\n"
+           "5 internal error; 129 hung up; 130 interrupted; 143 terminated.";
+}
+
+CLI::Validator tail() {
+    const auto check = [](const std::string& text) {
+        const auto value = parse_number(text);
+        if (text == "auto" || (value && *value >= 0 && *value <= longest_tail_s)) return std::string();
+        return refusal(text, "auto, or 0 to " + shortest(longest_tail_s) + " seconds");
+    };
+    return {check, ""};
+}
+
+CLI::Validator picture() {
+    const auto check = [](const std::string& text) {
+        const std::string lower = lower_case(text);
+        if (lower.ends_with(".svg") || lower.ends_with(".png")) return std::string();
+        return refusal(text, "a name that ends in .svg or .png");
+    };
+    return {check, ""};
+}
+
+void add_sound_options(CLI::App& app, RenderOptions& options) {
+    app.add_option_function<std::string>(
+           "--rate",
+           [&options](const std::string& text) {
+               options.rate_hz = static_cast<std::uint32_t>(*parse_number(text));
+           },
+           "Sampling rate of the WAV file, 48000 unless told")
+        ->type_name("HZ")
+        ->check(whole_between(lowest_render_rate_hz, highest_render_rate_hz, " of hertz"));
+    add_choice(app, "--format", options.format, formats, "Samples of the WAV file, pcm24 unless told");
+    app.add_option_function<std::string>(
+           "--tail",
+           [&options](const std::string& text) {
+               if (text != "auto") options.tail_s = *parse_number(text);
+           },
+           "Sound after the last event: seconds, or auto: until it has stayed below --silence for " +
+               shortest(silence_s) + " s, at most " + shortest(automatic_tail_limit_s) + " s")
+        ->type_name("S|auto")
+        ->check(tail());
+    app.add_option("--silence", options.silence_dbfs,
+                   "What is inaudible to --tail auto, -90 dBFS unless told")
+        ->type_name("DBFS")
+        ->check(number_between(-180, -20));
+    app.add_option("--gain", options.gain_db, "Louder or softer than the preset says, -120 to 60 dB")
+        ->type_name("DB")
+        ->check(number_between(-120, 60));
+    app.add_option("--limiter", options.limiter_dbfs,
+                   "Keeps the mix below this level, -40 to 0; off unless told, says when it acts")
+        ->type_name("DBFS")
+        ->check(number_between(-40, 0));
+    add_choice(app, "--quality", options.quality, qualities,
+               "How finely strings are computed: live (as the preset says) unless told");
+}
+
+void add_music_options(CLI::App& app, RenderOptions& options) {
+    add_parameter_settings(app, options.parameters);
+    app.add_option("--tuning", options.tuning, "Scala scale: pitches of all keys")
+        ->type_name("FILE.scl")
+        ->check(some_name());
+    app.add_option("--keyboard-map", options.keyboard_map, "Scala keyboard map of the scale")
+        ->type_name("FILE.kbm")
+        ->check(some_name());
+    app.add_flag("--move-frets", options.move_frets, "Frets move to where the tuning has its notes");
+    app.add_option("--midi-map", options.midi_map, "Controllers of parameters (docs/formats/midi.md)")
+        ->type_name("FILE.json")
+        ->check(some_name());
+    app.add_option_function<std::string>(
+           "--guitar-mode",
+           [&options](const std::string& text) {
+               options.guitar_channel = static_cast<int>(*parse_number(text));
+           },
+           "One string a channel: this channel plays the last string of the preset, the next the one before")
+        ->type_name("CHANNEL")
+        ->check(whole_between(1, 16, ""));
+    app.add_option_function<std::string>(
+           "--seed",
+           [&options](const std::string& text) {
+               options.seed = static_cast<std::uint64_t>(*parse_number(text));
+           },
+           "Small irregularities of times and velocities, the same for the same number; none unless told")
+        ->type_name("N")
+        ->check(whole_between(0, 9007199254740991, ""));
+}
+
+void add_output_options(CLI::App& app, RenderOptions& options) {
+    app.add_option("-o,--out", options.out,
+                   "WAV file; a folder for several MIDI files; - for standard output")
+        ->required()
+        ->type_name("FILE.wav")
+        ->check(some_name());
+    app.add_option("--stems", options.stems,
+                   "The strings apart: a channel each in one WAV file, or with FOLDER/ a file each")
+        ->type_name("FILE.wav|FOLDER/")
+        ->check(some_name());
+    app.add_option("--stats", options.stats, "Statistics as JSON; - for standard output")
+        ->type_name("FILE.json")
+        ->check(some_name());
+    app.add_option("--plot", options.plot, "Waveform and spectrogram: FILE.svg or FILE.png")
+        ->type_name("FILE")
+        ->check(picture());
+    app.add_option_function<std::string>(
+           "--jobs",
+           [&options](const std::string& text) { options.jobs = static_cast<unsigned>(*parse_number(text)); },
+           "Files rendered at the same time, one a processor unless told")
+        ->type_name("N")
+        ->check(whole_between(1, 256, ""));
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, Command& command) {
+    CLI::App* render_app = app.add_subcommand("render", "Plays MIDI files on instruments, into WAV files");
+    const auto options = std::make_shared<RenderOptions>();
+    render_app->add_option("midi", options->midi, "Standard MIDI files; - for standard input")
+        ->required()
+        ->type_name("MIDI...");
+    render_app->add_option("--preset", options->preset, "Preset file or name; auto unless told")
+        ->type_name("PRESET|auto")
+        ->check(some_name());
+    add_output_options(*render_app, *options);
+    add_sound_options(*render_app, *options);
+    add_music_options(*render_app, *options);
+    render_app->footer(footer());
+    render_app->callback([options, &command] { command = [options] { return render(*options); }; });
+}
+
+}  // namespace jawari::host

@@ -1,0 +1,11 @@
+// The command line of `jawari render`.
+#pragma once
+
+#include "cli/command.h"
+
+namespace jawari::host {
+
+/// Registers the subcommand; parsing it sets `command`.
+void add_render_command(CLI::App& app, Command& command);
+
+}  // namespace jawari::host

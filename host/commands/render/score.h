@@ -1,0 +1,59 @@
+// A MIDI file as events of instruments: who plays what, at which frame.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "formats/midi_file/midi_file.h"
+#include "jawari/instrument/render.h"
+#include "midi/interpreter.h"
+
+namespace jawari::host {
+
+struct TimedEvent {
+    std::uint64_t frame = 0;  ///< since the start of the file
+    InstrumentEvent event;    ///< its own frame is not set
+};
+
+/// One instrument of the piece.
+struct ScorePart {
+    std::string preset;
+    int channel = 0;        ///< 0 to 15: its channel, or that of its MPE zone's manager
+    unsigned channels = 0;  ///< bit c: notes of channel c
+    std::uint64_t notes = 0;
+    PlayMode play = PlayMode::Keyboard;
+    std::vector<TimedEvent> events;  ///< in order of time
+};
+
+struct Score {
+    std::vector<ScorePart> parts;    ///< in order of their first note
+    std::uint64_t end_frame = 0;     ///< of the last event or end of track
+    std::uint64_t silent_notes = 0;  ///< of programs without a preset, and beside guitar mode
+    std::uint64_t program_changes = 0;
+};
+
+/// Preset of a program on a part's channel; nothing: its notes are silent.
+using ProgramChoice = std::function<std::optional<std::string>(int channel, int bank, int program)>;
+
+struct ScoreRules {
+    InterpreterSettings interpreter;
+    /// Each channel (MPE zone, guitar) is a part for itself, for each preset that its programs choose. Empty:
+    /// all channels play one part, program changes do nothing.
+    ProgramChoice choose;
+    std::string preset;                                      ///< of the one part
+    std::vector<std::pair<ParameterId, double>> parameters;  ///< set at the start, in each parameter's unit
+};
+
+/// A program change holds for notes that begin after it; what sounds rings on, and hears its note-offs,
+/// pedals and bends. Parts exist if they have a note.
+Score make_score(const MidiFile& file, std::uint32_t rate_hz, const ScoreRules& rules);
+
+/// At the end of the score pedals go up and keys that are still down are let go, so that a file which forgets
+/// its note-offs comes to an end.
+void end_notes(Score& score);
+
+}  // namespace jawari::host

@@ -1,0 +1,73 @@
+// One MIDI input: the port of a keyboard, or a port of our own that other programs connect to.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "devices/held_notes.h"
+#include "player/midi_port.h"
+
+class RtMidiIn;
+
+namespace jawari::host {
+
+/// In the order in which `auto` tries them: those that the library here was built with.
+std::vector<std::string> midi_systems();
+
+/// Every word that --midi takes, whether the library here has it or not.
+const std::vector<std::string>& midi_system_words();
+
+/// A whole message as drivers hand it over; nothing for system messages and for what is no message.
+std::optional<ChannelMessage> channel_message(std::span<const unsigned char> bytes);
+
+/// Looks at the inputs of a system. It stays connected, so that looking again costs little.
+class MidiLister {
+  public:
+    static Outcome<std::unique_ptr<MidiLister>> create(const std::string& system);
+    MidiLister(const MidiLister&) = delete;
+    MidiLister& operator=(const MidiLister&) = delete;
+    ~MidiLister();
+
+    /// Names of inputs, without our own.
+    std::vector<std::string> names();
+
+  private:
+    MidiLister();
+    std::unique_ptr<RtMidiIn> midi_;
+};
+
+class MidiReceiver {
+  public:
+    /// Connects to the input `index` of names(), whose name is `name`. `port` takes what comes, with its
+    /// time, and outlives the receiver.
+    static Outcome<std::unique_ptr<MidiReceiver>> connect(const std::string& system, std::size_t index,
+                                                          const std::string& name, MidiPort& port);
+    /// A port of our own.
+    static Outcome<std::unique_ptr<MidiReceiver>> make_virtual(const std::string& system, MidiPort& port);
+
+    MidiReceiver(const MidiReceiver&) = delete;
+    MidiReceiver& operator=(const MidiReceiver&) = delete;
+    /// Ends its thread, then lets go of what it held.
+    ~MidiReceiver();
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] MidiPort& port() const { return *port_; }
+
+  private:
+    MidiReceiver(std::string name, MidiPort& port);
+    static Outcome<std::unique_ptr<MidiReceiver>> create(const std::string& system, const std::string& name,
+                                                         MidiPort& port);
+    static void receive(double delta_s, std::vector<unsigned char>* bytes, void* user);
+
+    std::string name_;
+    MidiPort* port_;
+    HeldNotes held_;  ///< of the receiving thread, until that has ended
+    std::unique_ptr<RtMidiIn> midi_;
+};
+
+}  // namespace jawari::host

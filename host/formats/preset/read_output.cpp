@@ -1,0 +1,48 @@
+#include "formats/preset/read_output.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "formats/preset/read_section.h"
+
+namespace jawari::host::preset {
+
+PickupDescription read_pickup(const json::Value& value, const std::string& path, json::Problems& problems) {
+    Section reader(
+        value, path,
+        {"position_from_bridge_m", "position_share", "width_m", "level", "quantity", "magnet_distance_m"},
+        problems);
+    PickupDescription pickup;
+    pickup.quantity = reader.choice_or<PickupQuantity>("quantity", pickup.quantity,
+                                                       {{"velocity", PickupQuantity::Velocity},
+                                                        {"displacement", PickupQuantity::Displacement},
+                                                        {"bridge_force", PickupQuantity::BridgeForce}});
+    if (pickup.quantity != PickupQuantity::BridgeForce) pickup.place = reader.place();
+    pickup.width_m = reader.number_or("width_m", pickup.width_m);
+    pickup.level = reader.number_or("level", pickup.level);
+    pickup.magnet_distance_m = reader.number_or("magnet_distance_m", pickup.magnet_distance_m);
+    return pickup;
+}
+
+BodyModeDescription read_body_mode(const json::Value& value, const std::string& path,
+                                   json::Problems& problems) {
+    Section reader(value, path, {"frequency_hz", "t60_s", "quality_factor", "gain_left", "gain_right"},
+                   problems);
+    BodyModeDescription mode;
+    mode.frequency_hz = reader.number("frequency_hz");
+    if (reader.has("t60_s") == reader.has("quality_factor")) {
+        problems.add(reader.path_of("t60_s"), reader.has("t60_s") ? "given beside quality_factor" : "missing",
+                     "either t60_s or quality_factor");
+    } else if (reader.has("t60_s")) {
+        mode.t60_s = reader.number("t60_s");
+    } else {
+        // sigma = omega/(2 Q), T60 = ln(1000)/sigma
+        const double q = reader.number("quality_factor", {0.1, 1e5});
+        mode.t60_s = std::log(1000.0) * q / (std::numbers::pi * mode.frequency_hz);
+    }
+    mode.gain_left = reader.number("gain_left");
+    mode.gain_right = reader.number_or("gain_right", mode.gain_left);
+    return mode;
+}
+
+}  // namespace jawari::host::preset

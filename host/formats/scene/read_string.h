@@ -1,0 +1,15 @@
+// One entry of a scene's "strings" -> StringDescription.
+#pragma once
+
+#include <string>
+
+#include "formats/json/object_reader.h"
+#include "formats/scene/scene.h"
+#include "jawari/scene/description.h"
+
+namespace jawari::host {
+
+StringDescription read_string(const json::Value& value, const std::string& path, ContactSources& sources,
+                              json::Problems& problems);
+
+}  // namespace jawari::host

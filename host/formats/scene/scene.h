@@ -1,0 +1,50 @@
+// A scene file as read: what the engine compiles, and what only the program needs.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "jawari/result.h"
+#include "jawari/scene/description.h"
+
+namespace jawari::host {
+
+/// Where a string's contacts come from; they are numbered in this order.
+struct ContactSources {
+    std::size_t contacts = 0;          ///< written out under "contacts"
+    std::size_t frets = 0;             ///< from "frets"
+    bool fret_heights_listed = false;  ///< "frets" gives each its own height
+    std::size_t neck = 0;              ///< from "neck"
+};
+
+struct Scene {
+    std::string file;  ///< the file's path or the built-in name, for messages
+    std::string name;  ///< for headings: the file's name without folder and extension, or the built-in name
+    std::string text;  ///< the JSON as read
+
+    double duration_s = 0;
+    /// contact_rate_hz and law of the description hold only once resolve_defaults() has been called.
+    SceneDescription description;
+    std::optional<double> contact_rate_hz;
+    std::optional<ImpactLaw> law;
+    std::vector<ContactSources> contact_sources;  ///< one per string
+};
+
+/// Longest simulation.
+inline constexpr double longest_duration_s = 86400;
+/// Scenes without contact_rate_hz get at least this.
+inline constexpr double default_contact_rate_hz = 2e6;
+
+/// Fills in what depends on other settings: contact rate (the smallest multiple of the output rate that is >=
+/// 2 MHz) and law
+/// (`signorini`; `newton` for the theta scheme, which has no other).
+void resolve_defaults(Scene& scene);
+
+/// The engine numbers all contacts of a string in one list; this names the key of the file that a failure is
+/// about.
+Failure in_file_terms(const Scene& scene, const Failure& failure);
+
+}  // namespace jawari::host

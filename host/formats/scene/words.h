@@ -1,0 +1,19 @@
+// The words of the scene format for the engine's enumerations, for messages and outputs.
+#pragma once
+
+#include <string>
+
+#include "jawari/scene/description.h"
+
+namespace jawari::host {
+
+std::string word(Scheme scheme);
+std::string word(ImpactLaw law);
+std::string word(Start start);
+std::string word(Side side);
+std::string word(Quantity quantity);
+
+/// `m`, `m/s`, `N` or `J`.
+std::string unit(Quantity quantity);
+
+}  // namespace jawari::host

@@ -1,0 +1,134 @@
+#include "instrument/preset_library.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string_view>
+
+#include "base/builtin.h"
+#include "base/input_file.h"
+#include "base/text.h"
+
+namespace jawari::host {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t longest_preset_bytes = std::size_t{4} << 20U;
+constexpr std::string_view extension = ".json";
+
+std::string environment(const char* name) {
+    const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nothing here sets variables
+    return value == nullptr ? std::string() : std::string(value);
+}
+
+/// The variable if it is an absolute path, else a folder in the home folder, else nothing.
+std::string base_folder(const char* variable, const char* below_home) {
+    std::string value = environment(variable);
+    if (value.starts_with('/')) return value;
+    const std::string home = environment("HOME");
+    return home.starts_with('/') ? home + below_home : std::string();
+}
+
+bool is_folder(const std::string& path) {
+    std::error_code ignored;
+    return fs::is_directory(path, ignored);
+}
+
+/// Names have no slash, so that a path that does not exist is not looked for elsewhere.
+bool is_name(const std::string& argument) {
+    return !argument.empty() && argument.find('/') == std::string::npos;
+}
+
+std::optional<std::string> find_in_folders(const std::string& name) {
+    for (const PresetFolder& folder : preset_folders()) {
+        const std::string path = folder.path + "/" + name + std::string(extension);
+        if (path_exists(path) && !is_folder(path)) return path;
+    }
+    return std::nullopt;
+}
+
+Outcome<Preset> load_file(const std::string& path) {
+    const auto text = read_file(path, longest_preset_bytes);
+    if (!text) return text.error();
+    return read_preset(text.value(), path);
+}
+
+void add_folder(const PresetFolder& folder, std::set<std::string>& seen, std::vector<NamedPreset>& presets) {
+    std::error_code failed;
+    for (const auto& entry : fs::directory_iterator(folder.path, failed)) {
+        const fs::path& path = entry.path();
+        std::error_code ignored;
+        if (path.extension() != extension || entry.is_directory(ignored)) continue;
+        if (seen.insert(path.stem().string()).second)
+            presets.push_back({path.stem().string(), folder.origin, path.string()});
+    }
+}
+
+}  // namespace
+
+std::vector<PresetFolder> preset_folders() {
+    constexpr const char* below = "/jawari/presets";
+    std::vector<PresetFolder> folders;
+    const auto add = [&](PresetOrigin origin, const std::string& base) {
+        if (base.starts_with('/')) folders.push_back({origin, base + below});
+    };
+    add(PresetOrigin::UserConfig, base_folder("XDG_CONFIG_HOME", "/.config"));
+    add(PresetOrigin::UserData, base_folder("XDG_DATA_HOME", "/.local/share"));
+    std::string system = environment("XDG_DATA_DIRS");
+    if (system.empty()) system = "/usr/local/share:/usr/share";
+    for (std::size_t begin = 0; begin <= system.size();) {
+        const std::size_t end = std::min(system.find(':', begin), system.size());
+        add(PresetOrigin::System, system.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return folders;
+}
+
+std::vector<NamedPreset> named_presets() {
+    std::set<std::string> seen;
+    std::vector<NamedPreset> presets;
+    for (const PresetFolder& folder : preset_folders()) add_folder(folder, seen, presets);
+    for (const std::string& name : builtin_preset_names())
+        if (seen.insert(name).second) presets.push_back({name, PresetOrigin::BuiltIn, ""});
+    std::sort(presets.begin(), presets.end(),
+              [](const NamedPreset& a, const NamedPreset& b) { return a.name < b.name; });
+    return presets;
+}
+
+Outcome<Preset> load_preset(const std::string& argument) {
+    if (path_exists(argument) && !is_folder(argument)) return load_file(argument);
+    if (is_name(argument)) {
+        if (const auto path = find_in_folders(argument)) return load_file(*path);
+        const BuiltinFile* builtin = find_builtin("instruments", argument);
+        if (builtin != nullptr) return read_preset(std::string(builtin->text), argument);
+    }
+    std::vector<std::string> names;
+    for (const NamedPreset& preset : named_presets()) names.push_back(preset.name);
+    return Error{
+        ExitCode::File,
+        printable(argument) + ": no such file, and no preset of that name (presets: " + join(names) + ")"};
+}
+
+bool preset_exists(const std::string& name) {
+    return is_name(name) && (find_in_folders(name) || find_builtin("instruments", name) != nullptr);
+}
+
+std::string origin_text(PresetOrigin origin) {
+    switch (origin) {
+        case PresetOrigin::UserConfig:
+            return "user configuration";
+        case PresetOrigin::UserData:
+            return "user data";
+        case PresetOrigin::System:
+            return "system data";
+        case PresetOrigin::BuiltIn:
+            break;
+    }
+    return "built in";
+}
+
+}  // namespace jawari::host

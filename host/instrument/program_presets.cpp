@@ -1,0 +1,57 @@
+#include "instrument/program_presets.h"
+
+#include <array>
+#include <cstddef>
+
+namespace jawari::host {
+
+namespace {
+
+constexpr std::array<std::string_view, 14> presets{
+    "bass-fretted",    "bass-fretless", "bass-slap", "guitar-steel", "guitar-nylon",
+    "guitar-electric", "guitar-12",     "sitar",     "tanpura",      "biwa",
+    "harpsichord",     "clavichord",    "dulcimer",  "prepared"};
+
+struct Family {
+    int first, last;  ///< programs, from 0
+    std::string_view preset;
+};
+
+/// Programs of General MIDI ("General MIDI System Level 1", MMA 1991), from 0.
+constexpr std::array<Family, 17> families{{
+    {0, 5, "dulcimer"},  // pianos: strings that hammers strike
+    {6, 6, "harpsichord"},
+    {7, 7, "clavichord"},  // clavi
+    {15, 15, "dulcimer"},
+    {24, 24, "guitar-nylon"},
+    {25, 25, "guitar-steel"},
+    {26, 31, "guitar-electric"},  // jazz, clean, muted, overdriven, distorted, harmonics
+    {32, 32, "bass-fretless"},    // acoustic bass
+    {33, 34, "bass-fretted"},     // finger, pick
+    {35, 35, "bass-fretless"},
+    {36, 37, "bass-slap"},
+    {38, 39, "bass-fretted"},  // synthetic basses
+    {45, 46, "guitar-nylon"},  // pizzicato, harp
+    {104, 104, "sitar"},
+    {105, 105, "guitar-steel"},  // banjo
+    {106, 106, "biwa"},          // shamisen
+    {107, 107, "biwa"},          // koto
+}};
+
+}  // namespace
+
+std::span<const std::string_view> numbered_presets() {
+    return presets;
+}
+
+std::optional<std::string_view> program_preset(int bank, int program) {
+    if (bank == numbered_bank) {
+        if (program < 0 || program >= static_cast<int>(presets.size())) return std::nullopt;
+        return presets[static_cast<std::size_t>(program)];
+    }
+    for (const Family& family : families)
+        if (program >= family.first && program <= family.last) return family.preset;
+    return std::nullopt;
+}
+
+}  // namespace jawari::host

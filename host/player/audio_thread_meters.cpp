@@ -1,0 +1,118 @@
+// What the audio thread tells about itself.
+#include <algorithm>
+#include <cmath>
+
+#include "player/audio_thread.h"
+
+namespace jawari::host {
+
+namespace {
+
+constexpr auto relaxed = std::memory_order_relaxed;
+constexpr double mean_load_s = 0.5;
+
+/// One writer raises, a reader sets back to 0; that one of both may be lost does no harm.
+void raise(std::atomic<double>& meter, double value) {
+    if (value > meter.load(relaxed)) meter.store(value, relaxed);
+}
+
+double largest(const double* x, std::size_t count) {
+    double most = 0;
+    for (std::size_t n = 0; n < count; ++n) most = std::max(most, std::abs(x[n]));
+    return most;
+}
+
+}  // namespace
+
+void add_counters(const InstrumentCounters& more, InstrumentCounters& sum) JAWARI_REALTIME {
+    sum.notes += more.notes;
+    sum.ignored_notes += more.ignored_notes;
+    sum.stolen_notes += more.stolen_notes;
+    sum.delayed_notes += more.delayed_notes;
+    sum.faded_voices += more.faded_voices;
+    sum.legato_notes += more.legato_notes;
+}
+
+void Performer::measure_level(const double* left, const double* right, std::size_t frames) JAWARI_REALTIME {
+    raise(links_.meters.peak_left, largest(left, frames));
+    raise(links_.meters.peak_right, largest(right, frames));
+    if (limiter_) links_.meters.limiter_gain.store(limiter_->least_gain, relaxed);
+}
+
+void Performer::measure_instruments() JAWARI_REALTIME {
+    InstrumentCounters counters = retired_counters_;
+    std::uint64_t nonfinite = retired_nonfinite_;
+    std::size_t held = 0;
+    std::size_t voices = 0;
+    for (std::size_t i = 0; i < sounding_; ++i) {
+        LiveInstrument& instrument = *stage_[i];
+        add_counters(instrument.state.counters, counters);
+        nonfinite += instrument.nonfinite_resets;
+        for (const CourseState& course : instrument.state.courses) held += course.held.active ? 1 : 0;
+        for (const InstrumentStringState& string : instrument.state.strings) voices += string.busy;
+    }
+    if (nonfinite != nonfinite_resets_)
+        notify(LiveNotice::Kind::NonfiniteReset, static_cast<double>(nonfinite));
+    nonfinite_resets_ = nonfinite;
+    LiveMeters& meters = links_.meters;
+    meters.instruments.store(sounding_, relaxed);
+    meters.held_notes.store(held, relaxed);
+    meters.voices.store(voices, relaxed);
+    meters.notes.store(counters.notes, relaxed);
+    meters.ignored_notes.store(counters.ignored_notes, relaxed);
+    meters.stolen_notes.store(counters.stolen_notes, relaxed);
+    meters.faded_voices.store(counters.faded_voices, relaxed);
+    meters.nonfinite_resets.store(nonfinite, relaxed);
+}
+
+/// One string of each instrument a block: dear things a little at a time.
+void Performer::survey_strings() JAWARI_REALTIME {
+    if (sounding_ == 0) return;
+    for (std::size_t i = 0; i < sounding_; ++i) survey_string(*stage_[i]);
+    links_.meters.energy_J.store(stage_[0]->energy_J, relaxed);
+}
+
+void Performer::survey_string(LiveInstrument& instrument) JAWARI_REALTIME {
+    InstrumentState& state = instrument.state;
+    const InstrumentStringState& string = state.strings[instrument.surveyed];
+    if (string.busy > 0)
+        instrument.energy_sum_J += string_energy(instrument.loaded->model, state, instrument.surveyed);
+    for (const Voice& voice : string.voices) {
+        if (voice.phase != VoicePhase::Idle)
+            instrument.nonfinite_sum += voice.string.counters.nonfinite_resets;
+    }
+    instrument.surveyed += 1;
+    if (instrument.surveyed < state.strings.size()) return;
+    instrument.surveyed = 0;
+    instrument.energy_J = instrument.energy_sum_J;
+    instrument.energy_sum_J = 0;
+    instrument.nonfinite_resets =
+        std::max(instrument.nonfinite_resets,
+                 instrument.nonfinite_sum + state.finished.nonfinite_resets + state.body.nonfinite_resets);
+    instrument.nonfinite_sum = 0;
+}
+
+void Performer::measure(std::size_t frames, std::int64_t started_ns) JAWARI_REALTIME {
+    LiveMeters& meters = links_.meters;
+    if (frames == 0) return;
+    const double available_s = static_cast<double>(frames) / settings_.rate_hz;
+    const double load = 1e-9 * static_cast<double>(settings_.clock() - started_ns) / available_s;
+    mean_load_ += std::min(1.0, available_s / mean_load_s) * (load - mean_load_);
+    meters.blocks.fetch_add(1, relaxed);
+    meters.frames.store(frame_, relaxed);
+    meters.load.store(load, relaxed);
+    meters.mean_load.store(mean_load_, relaxed);
+    raise(meters.worst_load, load);
+    if (load > 1) meters.late_blocks.fetch_add(1, relaxed);
+    if (!govern(governor_, load, available_s)) return;
+    const int level = static_cast<int>(governor_.level);
+    meters.overload_level.store(level, relaxed);
+    meters.overload_changes.fetch_add(1, relaxed);
+    notify(LiveNotice::Kind::OverloadLevel, level);
+}
+
+void Performer::notify(LiveNotice::Kind kind, double value) JAWARI_REALTIME {
+    links_.notices.push({kind, frame_, value});  // if nobody reads them, later ones are left out
+}
+
+}  // namespace jawari::host

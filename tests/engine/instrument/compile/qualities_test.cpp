@@ -1,0 +1,213 @@
+#include "jawari/instrument/qualities.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "instrument/voice/voice.h"
+#include "support/small_instrument.h"
+
+namespace jawari {
+namespace {
+
+using test::Played;
+using test::small_instrument;
+
+constexpr double rate_hz = 48000;
+
+InstrumentModel with_rungs(const InstrumentDescription& instrument, std::vector<QualityDescription> lower) {
+    InstrumentModel model = compile_instrument(instrument, rate_hz).value();
+    const auto failure = add_rungs(model, instrument, lower);
+    EXPECT_FALSE(failure) << failure->line();
+    return model;
+}
+
+std::vector<InstrumentEvent> chord(const InstrumentModel& model) {
+    std::vector<InstrumentEvent> events;
+    for (const InstrumentStringModel& string : model.strings)
+        events.push_back(
+            {.type = InstrumentEventType::NoteOn, .key = string.stopped.front().key, .value = 0.9});
+    return events;
+}
+
+double largest(const std::vector<double>& x) {
+    double most = 0;
+    for (const double value : x) most = std::max(most, std::abs(value));
+    return most;
+}
+
+/// True energy 1/2 mu (u^2 + omega^2 q^2) of all motions, which no step size enters.
+double true_energy(const InstrumentModel& model, const InstrumentState& state) {
+    double sum = 0;
+    for (std::size_t s = 0; s < state.strings.size(); ++s) {
+        const InstrumentStringModel& string = string_of(model, state, s);
+        for (const Voice& voice : state.strings[s].voices) {
+            if (voice.phase == VoicePhase::Idle || voice.bend.active) continue;
+            const StoppedStringModel& stopped = string.stopped[voice.fret];
+            for (std::size_t k = 0; k < stopped.string.mode_count; ++k) {
+                const double q = voice.string.displacement[k] - stopped.string.rest_displacement[k];
+                const double u =
+                    (voice.string.velocity[k] - stopped.backward_q[k] * q) / stopped.backward_u[k];
+                const double w = stopped.string.omega[k];
+                sum += 0.5 * stopped.string.linear_density_kg_per_m * (u * u + w * w * q * q);
+            }
+        }
+    }
+    return sum;
+}
+
+/// A rung that is no lower changes nothing but the last bits: bent, damped, touched motions included.
+TEST(InstrumentRungs, AChangeToTheSameQualityIsNotHeard) {
+    InstrumentDescription instrument = small_instrument();
+    instrument.contacts = false;  // contacts would amplify the last bits
+    const InstrumentModel model = with_rungs(instrument, {instrument.quality});
+    const auto events = test::storm(11, 9000, 60);
+    InstrumentState plain = make_instrument_state(model);
+    InstrumentState changed = make_instrument_state(model);
+    double difference = 0;
+    double loudest = 0;
+    std::size_t changes = 0;
+    for (std::size_t block = 0; block < 9000 / 100; ++block) {
+        std::vector<InstrumentEvent> here;
+        for (InstrumentEvent event : events) {
+            if (event.frame / 100 != block) continue;
+            event.frame %= 100;
+            here.push_back(event);
+        }
+        const Played a = test::play(model, plain, here, 100);
+        const Played b = test::play(model, changed, here, 100);
+        for (std::size_t n = 0; n < 100; ++n)
+            difference = std::max(difference, std::abs(a.left[n] - b.left[n]));
+        loudest = std::max(loudest, largest(a.left));
+        if (block % 5 != 4) continue;
+        for (std::size_t s = 0; s < model.strings.size(); ++s)
+            change_rung(model, changed, s, (block / 5) % 2);
+        ++changes;
+    }
+    EXPECT_EQ(changes, 18U);
+    EXPECT_GT(loudest, 0);
+    EXPECT_LT(difference, 1e-9 * loudest);
+    EXPECT_NEAR(changed.work.rungs_J, 0, 1e-12 * (1 + std::abs(changed.work.exciters_J)));
+}
+
+/// Without contacts modes do not know of each other: what is left is what the lower instrument has from the
+/// start.
+TEST(InstrumentRungs, TheModesThatStayGoOnAsTheyWere) {
+    InstrumentDescription instrument = small_instrument();
+    instrument.strings = {instrument.strings[2]};
+    instrument.obstacles.clear();
+    instrument.body.clear();
+    instrument.contacts = false;
+    for (ExciterDescription& exciter : instrument.exciters) {
+        if (auto* finger = std::get_if<FingerDescription>(&exciter.body)) finger->damping_kg_per_s = 0;
+    }
+    instrument.soft_touches.clear();
+    for (PickupDescription& pickup : instrument.pickups) pickup.magnet_distance_m = 0;  // not linear
+    QualityDescription lower = instrument.quality;
+    lower.mode_limit_hz = 0.4 * instrument.quality.mode_limit_hz;
+    const InstrumentModel model = with_rungs(instrument, {lower});
+    const auto play_on = [&](std::size_t before, std::size_t after) {
+        InstrumentState state = make_instrument_state(model);
+        change_rung(model, state, 0, before);
+        // Calibrated forces know of the modes; the motion does not.
+        std::vector<InstrumentEvent> note{{.type = InstrumentEventType::NoteOn,
+                                           .key = model.strings[0].stopped[0].key,
+                                           .value = 0.5,
+                                           .string = 0}};
+        test::play(model, state, note, 2000);
+        change_rung(model, state, 0, after);
+        return test::play(model, state, {}, 3000).left;
+    };
+    const std::vector<double> from_full = play_on(0, 1);
+    const std::vector<double> from_start = play_on(1, 1);
+    const double force =
+        model.strings[0].stopped[0].full_force_N[0] / model.lower[0][0].stopped[0].full_force_N[0];
+    ASSERT_GT(largest(from_start), 0);
+    for (std::size_t n = 0; n < from_full.size(); ++n)
+        ASSERT_NEAR(from_full[n], force * from_start[n], 1e-9 * largest(from_start)) << n;
+}
+
+/// The exact scheme samples free motion exactly at any step: displacement does not know of the contact rate,
+/// if the velocity has been converted rightly.
+TEST(InstrumentRungs, AnotherContactRateGoesOnWithTheSameMotion) {
+    InstrumentDescription instrument = small_instrument();
+    instrument.strings = {instrument.strings[2]};
+    instrument.obstacles.clear();
+    instrument.body.clear();
+    instrument.soft_touches.clear();
+    instrument.contacts = false;
+    for (PickupDescription& pickup : instrument.pickups) pickup.quantity = PickupQuantity::Displacement;
+    QualityDescription slower = instrument.quality;
+    slower.contact_rate_min_hz /= 4;
+    slower.mode_limit_hz = instrument.quality.mode_limit_hz;
+    const InstrumentModel model = with_rungs(instrument, {slower});
+    ASSERT_NE(model.lower[0][0].stopped[0].string.step_s, model.strings[0].stopped[0].string.step_s);
+    std::vector<double> sounds[2];
+    for (const bool changed : {false, true}) {
+        InstrumentState state = make_instrument_state(model);
+        const std::vector<InstrumentEvent> events{
+            {.type = InstrumentEventType::NoteOn, .key = model.strings[0].stopped[1].key, .value = 0.8}};
+        test::play(model, state, events, 2000);
+        if (changed) change_rung(model, state, 0, 1);
+        sounds[changed] = test::play(model, state, {}, 4000).left;
+    }
+    for (std::size_t n = 0; n < sounds[0].size(); ++n)
+        ASSERT_NEAR(sounds[0][n], sounds[1][n], 1e-9 * largest(sounds[0])) << n;
+}
+
+TEST(InstrumentRungs, NoChangeAddsEnergy) {
+    const InstrumentDescription instrument = small_instrument();
+    QualityDescription half = instrument.quality, fifth = instrument.quality;
+    half.contact_rate_min_hz /= 2;
+    half.mode_limit_hz /= 2;
+    fifth.contact_rate_min_hz = half.contact_rate_min_hz;
+    fifth.mode_limit_hz /= 5;
+    const InstrumentModel model = with_rungs(instrument, {half, fifth});
+    InstrumentState state = make_instrument_state(model);
+    test::play(model, state, chord(model), 1500);
+    for (const std::size_t rung : {1UL, 2UL, 0UL, 2UL, 1UL, 0UL}) {
+        const double before = true_energy(model, state);
+        double metered = state.work.rungs_J;
+        double discrete = 0;
+        for (std::size_t s = 0; s < model.strings.size(); ++s) discrete -= string_energy(model, state, s);
+        for (std::size_t s = 0; s < model.strings.size(); ++s) change_rung(model, state, s, rung);
+        for (std::size_t s = 0; s < model.strings.size(); ++s) discrete += string_energy(model, state, s);
+        metered = state.work.rungs_J - metered;
+        EXPECT_GT(before, 0);
+        EXPECT_LE(true_energy(model, state), before * (1 + 1e-12)) << rung;
+        EXPECT_NEAR(metered, discrete, 1e-9 * before) << rung;
+        test::play(model, state, {}, 700);
+    }
+}
+
+TEST(InstrumentRungs, OutOfRangeIsIgnoredAndIdleStringsJustChange) {
+    const InstrumentDescription instrument = small_instrument();
+    const InstrumentModel model = with_rungs(instrument, {instrument.quality});
+    InstrumentState state = make_instrument_state(model);
+    change_rung(model, state, 0, 2);
+    EXPECT_EQ(state.strings[0].rung, 0U);
+    change_rung(model, state, 0, 1);
+    EXPECT_EQ(state.strings[0].rung, 1U);
+    EXPECT_EQ(state.work.rungs_J, 0);
+}
+
+TEST(InstrumentRungs, TheOldestReleasedMotionFadesFirst) {
+    const InstrumentModel model = compile_instrument(small_instrument(), rate_hz).value();
+    InstrumentState state = make_instrument_state(model);
+    EXPECT_FALSE(fade_oldest_released(state));
+    std::vector<InstrumentEvent> events = chord(model);
+    for (std::size_t i = 0; i < events.size(); ++i) events[i].frame = 10 * i;
+    test::play(model, state, events, 200);
+    EXPECT_FALSE(fade_oldest_released(state));  // all are held
+    for (InstrumentEvent& event : events)
+        event = {.type = InstrumentEventType::NoteOff, .key = event.key, .value = 0.5};
+    test::play(model, state, events, 1);
+    ASSERT_TRUE(fade_oldest_released(state));
+    EXPECT_TRUE(state.strings[0].voices[0].fading);
+    EXPECT_FALSE(state.strings[1].voices[0].fading);
+    EXPECT_EQ(state.counters.faded_voices, 1U);
+}
+
+}  // namespace
+}  // namespace jawari

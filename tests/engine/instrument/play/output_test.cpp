@@ -1,0 +1,142 @@
+// Pickups, the force on the bridge and the body against closed forms and fine numerical integration.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "instrument/voice/body.h"
+#include "instrument/voice/pickups.h"
+#include "instrument/voice/voice.h"
+#include "jawari/scene/modes.h"
+#include "support/bass_instrument.h"
+#include "support/small_instrument.h"
+
+namespace jawari {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+InstrumentDescription open_string() {
+    InstrumentDescription bass = test::bass_instrument();
+    bass.strings.resize(1);
+    bass.frets = {};
+    return bass;
+}
+
+/// A body mode under a force that is linear between samples, by 2000 small steps of the midpoint rule each.
+TEST(Body, FollowsAPiecewiseLinearForce) {
+    InstrumentDescription instrument = open_string();
+    instrument.gain = 1;
+    instrument.body = {{.frequency_hz = 180, .t60_s = 0.2, .gain_left = 2, .gain_right = -3}};
+    const BodyModel body = body_model(instrument, 48000);
+    BodyState state = make_body_state(body);
+    const double omega = 2 * pi * 180, sigma = std::log(1000.0) / 0.2;
+    double y = 0, v = 0, before = 0;
+    for (int n = 0; n < 400; ++n) {
+        const double force = n < 100 ? std::sin(0.05 * n) : 0.3;
+        const int steps = 2000;
+        const double dt = 1 / 48000.0 / steps;
+        for (int i = 0; i < steps; ++i) {
+            const double F = before + (force - before) * (i + 0.5) / steps;
+            const double a = F - 2 * sigma * v - omega * omega * y;
+            const double v_mid = v + dt / 2 * a;
+            const double y_mid = y + dt / 2 * v;
+            v += dt * (F - 2 * sigma * v_mid - omega * omega * y_mid);
+            y += dt * v_mid;
+        }
+        before = force;
+        const StereoSample sample = advance_body(body, state, force);
+        ASSERT_NEAR(sample.left, 2 * v, 1e-9) << n;
+        ASSERT_NEAR(sample.right, -3 * v, 1e-9) << n;
+    }
+}
+
+TEST(Body, ComesToRestAndIsRescuedFromNonsense) {
+    InstrumentDescription instrument = open_string();
+    instrument.body = {{.frequency_hz = 180, .t60_s = 0.05, .gain_left = 1, .gain_right = 1}};
+    const BodyModel body = body_model(instrument, 48000);
+    BodyState state = make_body_state(body);
+    advance_body(body, state, 1);
+    for (int n = 0; n < 48000 && state.ringing; ++n) advance_body(body, state, 0);
+    EXPECT_FALSE(state.ringing);
+    EXPECT_EQ(advance_body(body, state, 0).left, 0);
+    EXPECT_EQ(advance_body(body, state, std::nan("")).left, 0);
+    EXPECT_TRUE(std::isfinite(advance_body(body, state, 1).left));
+}
+
+/// A triangle of height a at x_p exerts T a/(L - x_p) on the bridge: what its modes add up to.
+TEST(Pickup, BridgeForceIsTensionTimesSlope) {
+    InstrumentDescription instrument = open_string();
+    instrument.strings[0].inharmonicity = 0;
+    instrument.quality = {.contact_rate_min_hz = 2e6, .mode_limit_hz = 60000};
+    instrument.body = {{.frequency_hz = 100, .t60_s = 1, .gain_left = 1, .gain_right = 1}};
+    const InstrumentModel model = compile_instrument(instrument, 192000).value();
+    const StoppedStringModel& stopped = model.strings[0].stopped[0];
+    Voice voice = make_voice(model.strings[0].sizes);
+    start_voice(model, model.strings[0], voice, 0, 0, 0);
+    const Pluck triangle{.position_m = 0.5, .height_m = 1e-3};
+    for (std::size_t k = 0; k < stopped.string.mode_count; ++k)
+        voice.string.displacement[k] = pluck_coordinate(k + 1, triangle, stopped.string.length_m);
+    voice.string.active_modes = stopped.string.stride;
+    const double L = stopped.string.length_m;
+    const double tension = 4 * L * L * 41.20344461410875 * 41.20344461410875 * 0.0354;
+    const double slope = 1e-3 / (L - 0.5);
+    EXPECT_NEAR(bridge_force(stopped, voice.string), tension * slope, 3e-3 * tension * slope);
+}
+
+TEST(Pickup, QuantitiesMixAndMagnet) {
+    InstrumentDescription instrument = open_string();
+    instrument.pickups = {{.place = {.share = 0.2}, .level = 2},
+                          {.place = {.share = 0.3}, .level = 5, .quantity = PickupQuantity::Displacement},
+                          {.place = {.share = 0.2}, .level = 1, .magnet_distance_m = 0.004}};
+    const InstrumentModel model = compile_instrument(instrument, 48000).value();
+    const StoppedStringModel& stopped = model.strings[0].stopped[0];
+    Voice voice = make_voice(model.strings[0].sizes);
+    start_voice(model, model.strings[0], voice, 0, 0, 0);
+    voice.string.displacement[0] = 1e-3;
+    voice.string.velocity[0] = 0.7;
+    const double L = stopped.string.length_m;
+    const double near = mode_shape(1, 0.8 * L, L), far = mode_shape(1, 0.7 * L, L);
+    const double gap = 1 - 1e-3 * near / 0.004;
+    const double first = 2 * 0.7 * near;
+    const double second = 5 * 1e-3 * far;
+    const double third = 0.7 * near / (gap * gap * gap);
+    EXPECT_NEAR(pickup_signal(model, stopped, voice.string, 0.5), first + second + third, 1e-12);
+    EXPECT_NEAR(pickup_signal(model, stopped, voice.string, 0), first, 1e-12);
+    EXPECT_NEAR(pickup_signal(model, stopped, voice.string, 1), second + third, 1e-12);
+}
+
+/// What a pan does to one and the same note.
+test::Played panned(const InstrumentModel& model, double pan) {
+    InstrumentState state = make_instrument_state(model);
+    InstrumentEvent turn{0, InstrumentEventType::SetParameter, 0, 0, pan};
+    turn.parameter = ParameterId::Pan;
+    return test::play(model, state, {turn, {0, InstrumentEventType::NoteOn, 0, 28, 0.5}}, 6000);
+}
+
+double power_of(const std::vector<double>& x) {
+    return std::inner_product(x.begin() + 3000, x.end(), x.begin() + 3000,
+                              0.0);  // after controls have glided
+}
+
+TEST(Pan, IsFromLeftToRightWithConstantPower) {
+    const InstrumentModel model = compile_instrument(open_string(), 48000).value();
+    const test::Played middle = panned(model, 0);
+    const double power = power_of(middle.left) + power_of(middle.right);
+    ASSERT_GT(power, 0);
+    EXPECT_NEAR(power_of(middle.left), power_of(middle.right), 1e-9 * power);
+    for (const double pan : {-1.0, -0.6, -0.2, 0.3, 0.8, 1.0}) {
+        const test::Played there = panned(model, pan);
+        const double left = power_of(there.left);
+        const double right = power_of(there.right);
+        EXPECT_NEAR(left + right, power, 1e-6 * power) << pan;
+        EXPECT_GT((right - left) * pan, 0) << pan;
+        if (std::abs(pan) == 1) {
+            EXPECT_LT(std::min(left, right), 1e-9 * power);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace jawari

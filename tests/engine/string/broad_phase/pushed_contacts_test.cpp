@@ -1,0 +1,136 @@
+#include "string/broad_phase/pushed_contacts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "string/broad_phase/gap_certificate.h"
+#include "string/frame/frame.h"
+#include "support/scenes.h"
+
+namespace jawari {
+namespace {
+
+/// Two contacts of a string, the first of them near and struck in a step that leaves `steps_left`.
+struct Struck {
+    StringModel model;
+    StringState state;
+    double pushed_m =
+        0;  ///< what the impulse may move the other gap by until the frame's end, from the definition
+};
+
+Struck struck_string(double growth) {
+    test::RandomScene random(5);
+    SceneDescription scene = random.scene(ImpactLaw::Signorini, 48000, 1e6);
+    StringDescription& string = scene.strings[0];
+    string.contacts.resize(2);
+    for (std::size_t c = 0; c < 2; ++c) {
+        string.contacts[c].position_m = (0.3 + 0.1 * static_cast<double>(c)) * string.length_m;
+        string.contacts[c].height_m = -0.01;
+        string.contacts[c].side = Side::Below;
+    }
+    Struck struck{test::compiled_string(scene), {}, 0};
+    StringModel& model = struck.model;
+    model.certificate.push = model.certificate.push_speed;  // as a retuned string's
+    model.certificate.push_growth = growth;
+    struck.state = make_string_state(model);
+    StringState& state = struck.state;
+    choose_all_contacts(model, state);
+    state.contact.near_count = 1;
+    state.contact.is_near[1] = 0;
+    state.contact.candidates[0] = 0;
+    state.contact.candidate_count = 1;
+    state.contact.impulse[0] = 0.003;
+    state.steps_left = 7;
+    double speed = 0;
+    for (std::size_t k = 0; k < model.mode_count; ++k)
+        speed += std::abs(model.contact_rows[k] * model.certificate.kick[k] *
+                          model.contact_rows[model.stride + k]);
+    struck.pushed_m = growth * speed * 0.003 * 7 * model.step_s;
+    return struck;
+}
+
+void set_margin(Struck& struck, double margin_m) {
+    struck.state.certificate.margin[1] = margin_m;
+    struck.state.certificate.group_margin[1] = margin_m;
+}
+
+TEST(Push, AContactThatTheImpulseMayReachJoinsTheStep) {
+    for (const double growth : {1.0, 1.7}) {
+        Struck out_of_reach = struck_string(growth);
+        set_margin(out_of_reach, 1.001 * out_of_reach.pushed_m);
+        EXPECT_FALSE(admit_pushed_contacts(out_of_reach.model, out_of_reach.state));
+        EXPECT_EQ(out_of_reach.state.contact.near_count, 1U);
+
+        Struck in_reach = struck_string(growth);
+        set_margin(in_reach, 0.999 * in_reach.pushed_m);
+        EXPECT_TRUE(admit_pushed_contacts(in_reach.model, in_reach.state));
+        ASSERT_EQ(in_reach.state.contact.near_count, 2U);
+        EXPECT_EQ(in_reach.state.contact.near[1], 1U);
+        EXPECT_FALSE(admit_pushed_contacts(in_reach.model, in_reach.state));  // nobody is left
+    }
+}
+
+TEST(Push, ImpulsesOfAFrameAddUp) {
+    Struck struck = struck_string(1);
+    set_margin(struck, 1.5 * struck.pushed_m);
+    EXPECT_FALSE(admit_pushed_contacts(struck.model, struck.state));
+    charge_impulses(struck.model, struck.state);
+    EXPECT_NEAR(struck.state.certificate.group_push[1], struck.pushed_m, 1e-8 * struck.pushed_m);
+    EXPECT_TRUE(admit_pushed_contacts(struck.model, struck.state));
+}
+
+/// How far 1 N s at a contact lowers the gaps of a group within the frame, step by step; Newton's law acts on
+/// what the gap would be half a step later.
+double stepped_push(const StringModel& model, std::size_t struck, std::size_t first, std::size_t last) {
+    const std::size_t n = model.stride;
+    StringState state = make_string_state(model, Metering::Off, skip_nothing);
+    for (std::size_t k = 0; k < model.mode_count; ++k) {
+        state.velocity[k] = model.mobility[k] * model.contact_rows[struck * n + k];
+        state.displacement[k] = model.step_s * state.velocity[k];
+    }
+    notice_change(model, state);
+    const double ahead_s = model.law == ImpactLaw::Newton ? model.step_s / 2 : 0;
+    double lowest = 0;
+    for (std::size_t step_count = 0; step_count < model.steps_per_frame; ++step_count) {
+        if (step_count > 0) step(model, state);
+        for (std::size_t c = first; c < last; ++c) {
+            const double* row = model.contact_rows.data() + c * n;
+            const double gap =
+                std::inner_product(row, row + model.mode_count, state.displacement.begin(), 0.0);
+            const double rate = std::inner_product(row, row + model.mode_count, state.velocity.begin(), 0.0);
+            lowest = std::min({lowest, gap, gap + ahead_s * rate});
+        }
+    }
+    return -lowest;
+}
+
+TEST(Push, TabulatedOnesAreWhatSteppingShows) {
+    for (const ImpactLaw law : {ImpactLaw::Newton, ImpactLaw::Signorini}) {
+        for (const std::size_t contacts : {5U, 100U}) {  // own responses, and those of a uniform neck
+            test::RandomScene random(11);
+            SceneDescription scene = random.scene(law, 48000, 1e6);
+            StringDescription& string = scene.strings[0];
+            const std::vector<ProfilePoint> far{{0, -1}, {0.7 * string.length_m, -1}};
+            string.contacts = sampled_neck(string.length_m, contacts, far, 0);
+            const StringModel model = test::compiled_string(scene);
+            ASSERT_EQ(model.contact_count, contacts);
+            const std::vector<std::size_t>& begin = model.certificate.group_begin;
+            const std::size_t groups = begin.size() - 1;
+            double largest = 0;
+            for (const double push : model.certificate.push) largest = std::max(largest, push);
+            for (std::size_t g = 0; g < groups; g += 1 + groups / 7) {
+                for (std::size_t struck = 0; struck < contacts; struck += 1 + contacts / 5) {
+                    EXPECT_NEAR(model.certificate.push[g * contacts + struck],
+                                stepped_push(model, struck, begin[g], begin[g + 1]), 1e-9 * largest)
+                        << "group " << g << ", contact " << struck;
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace jawari

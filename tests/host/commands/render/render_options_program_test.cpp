@@ -1,0 +1,253 @@
+// `jawari render` with its options: pipes, several files, stems, limiter, tuning, map, seed, programs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "support/midi_bytes.h"
+#include "support/read_wav.h"
+#include "support/run_program.h"
+
+namespace jawari::host {
+namespace {
+
+using namespace jawari::test;
+
+std::string as_text(const Bytes& bytes) {
+    return {bytes.begin(), bytes.end()};
+}
+
+/// Bass notes every 150 ms on channel 1, after some messages. A tick is a millisecond.
+std::string notes(const std::vector<int>& keys, const std::vector<Bytes>& before = {}, int channel = 0,
+                  int velocity = 80) {
+    Bytes track;
+    for (const Bytes& message : before) append_event(track, 0, message);
+    for (const int key : keys) {
+        append_event(track, 0,
+                     {static_cast<std::uint8_t>(0x90 + channel), static_cast<std::uint8_t>(key),
+                      static_cast<std::uint8_t>(velocity)});
+        append_event(track, 150,
+                     {static_cast<std::uint8_t>(0x80 + channel), static_cast<std::uint8_t>(key), 64});
+    }
+    append_event(track, 0, end_of_track);
+    return as_text(file_with_track(track, 500));
+}
+
+struct Rendered {
+    Ran ran;
+    nlohmann::json stats;
+    Wav wav;
+};
+
+Rendered render(const TemporaryFolder& folder, const std::string& midi, std::vector<std::string> options) {
+    std::vector<std::string> arguments{"render",   folder.write("in.mid", midi),
+                                       "-o",       folder.file("out.wav"),
+                                       "--stats",  folder.file("stats.json"),
+                                       "--format", "float",
+                                       "--tail",   "0"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    Rendered rendered{jawari(arguments), {}, {}};
+    EXPECT_EQ(rendered.ran.exit_code, 0) << rendered.ran.err;
+    rendered.stats = nlohmann::json::parse(read_text(folder.file("stats.json")));
+    rendered.wav = read_wav(folder.file("out.wav"));
+    return rendered;
+}
+
+const std::vector<std::string> bass{"--preset", "bass-fretted"};
+
+std::vector<std::string> with_bass(std::vector<std::string> options) {
+    options.insert(options.begin(), bass.begin(), bass.end());
+    return options;
+}
+
+double largest(const std::vector<double>& samples) {
+    double peak = 0;
+    for (const double sample : samples) peak = std::max(peak, std::abs(sample));
+    return peak;
+}
+
+TEST(RenderOptions, StandardInputToStandardOutput) {
+    const TemporaryFolder folder;
+    const std::string midi = folder.write("in.mid", notes({28, 33}));
+    const Ran file = jawari({"render", midi, "--preset", "bass-fretted", "-o", folder.file("a.wav")});
+    ASSERT_EQ(file.exit_code, 0) << file.err;
+    const Ran piped = run({"/bin/sh", "-c",
+                           std::string(JAWARI_PROGRAM) + " render - --preset bass-fretted -o - < " + midi +
+                               " > " + folder.file("b.wav")});
+    ASSERT_EQ(piped.exit_code, 0) << piped.err;
+    EXPECT_EQ(piped.out, "");
+    EXPECT_EQ(piped.err, "");
+    EXPECT_TRUE(read_wav(folder.file("a.wav")).data == read_wav(folder.file("b.wav")).data);
+}
+
+TEST(RenderOptions, SeveralFilesBecomeSeveralFiles) {
+    const TemporaryFolder folder;
+    std::vector<std::string> arguments{"render"};
+    for (int i = 0; i < 5; ++i)
+        arguments.push_back(folder.write("song" + std::to_string(i) + ".mid", notes({28 + i})));
+    std::filesystem::create_directory(folder.file("out"));
+    std::filesystem::create_directory(folder.file("single"));
+    auto parallel = arguments;
+    parallel.insert(parallel.end(), {"--preset", "bass-fretted", "-o", folder.file("out"), "--jobs", "3"});
+    const Ran ran = jawari(parallel);
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    for (std::size_t i = 0; i < 5; ++i) {
+        const std::string name = "song" + std::to_string(i) + ".wav";
+        const Ran alone = jawari(
+            {"render", arguments[i + 1], "--preset", "bass-fretted", "-o", folder.file("single/" + name)});
+        ASSERT_EQ(alone.exit_code, 0) << alone.err;
+        EXPECT_TRUE(read_text(folder.file("out/" + name)) == read_text(folder.file("single/" + name)))
+            << name;
+    }
+}
+
+TEST(RenderOptions, OfSeveralFilesTheGoodOnesAreRendered) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder.file("out"));
+    const Ran ran =
+        jawari({"render", folder.file("none.mid"), folder.write("good.mid", notes({28})),
+                folder.write("bad.mid", "MThd"), "--preset", "bass-fretted", "-o", folder.file("out")});
+    EXPECT_EQ(ran.exit_code, 3);
+    EXPECT_EQ(ran.error_lines(), 2);
+    EXPECT_NE(ran.err.find("none.mid: No such file"), std::string::npos);
+    EXPECT_NE(ran.err.find("bad.mid: byte 4"), std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(folder.file("out/good.wav")));
+    EXPECT_FALSE(std::filesystem::exists(folder.file("out/bad.wav")));
+}
+
+TEST(RenderOptions, TheLimiterKeepsItsCeilingAndSaysSo) {
+    const TemporaryFolder folder;
+    const auto loud = render(folder, notes({28, 33, 38}), with_bass({"--gain", "20", "--limiter", "-3"}));
+    const double ceiling = std::pow(10.0, -3.0 / 20);
+    EXPECT_LE(largest(loud.wav.samples()), ceiling * (1 + 1e-7));  // floats
+    EXPECT_GT(largest(loud.wav.samples()), 0.9 * ceiling);
+    EXPECT_GT(loud.stats["limited_frames"], 0);
+    EXPECT_GT(loud.stats["limiter_reduction_db"], 1);
+    EXPECT_NE(loud.ran.err.find("the limiter lowered"), std::string::npos);
+    EXPECT_EQ(loud.stats["frames"], loud.wav.channel(0).size());
+    const auto soft = render(folder, notes({28, 33, 38}), with_bass({"--gain", "-6", "--limiter", "0"}));
+    const auto plain = render(folder, notes({28, 33, 38}), with_bass({"--gain", "-6"}));
+    EXPECT_EQ(soft.ran.err, "");
+    EXPECT_TRUE(soft.wav.data == plain.wav.data);  // bit for bit, without delay
+}
+
+TEST(RenderOptions, TheSeedDecides) {
+    const TemporaryFolder folder;
+    const std::string midi = notes({28, 33, 38, 43, 30, 35});
+    const auto plain = render(folder, midi, bass).wav.data;
+    const auto one = render(folder, midi, with_bass({"--seed", "1"})).wav.data;
+    EXPECT_TRUE(one == render(folder, midi, with_bass({"--seed", "1"})).wav.data);
+    EXPECT_FALSE(one == render(folder, midi, with_bass({"--seed", "2"})).wav.data);
+    EXPECT_FALSE(one == plain);
+}
+
+TEST(RenderOptions, ProgramsChoosePresets) {
+    const TemporaryFolder folder;
+    const auto chosen = render(folder, notes({28, 33}, {{0xC0, 33}}), {});
+    EXPECT_EQ(chosen.stats["parts"].size(), 1U);
+    EXPECT_EQ(chosen.stats["parts"][0]["preset"], "bass-fretted");
+    EXPECT_EQ(chosen.ran.err, "");
+    EXPECT_TRUE(chosen.wav.data == render(folder, notes({28, 33}), bass).wav.data);
+    const auto flute = render(folder, notes({28, 33}, {{0xC0, 73}}), {});
+    EXPECT_EQ(flute.stats["silent_notes"], 2);
+    EXPECT_EQ(largest(flute.wav.samples()), 0);
+    EXPECT_NE(flute.ran.err.find("notice: 2 notes are silent"), std::string::npos);
+    const auto drums = render(folder, notes({36}, {{0xC9, 33}}, 9), {});
+    EXPECT_EQ(drums.stats["silent_notes"], 1);
+    const auto ignored = render(folder, notes({28}, {{0xC0, 73}}), bass);
+    EXPECT_NE(ignored.ran.err.find("program changes do nothing"), std::string::npos);
+}
+
+TEST(RenderOptions, StemsAreWrittenBesideTheMix) {
+    const TemporaryFolder folder;
+    render(folder, notes({28, 33}), with_bass({"--stems", folder.file("stems.wav")}));
+    EXPECT_EQ(read_wav(folder.file("stems.wav")).channels, 4);
+    std::filesystem::create_directory(folder.file("stems"));
+    render(folder, notes({28, 33}), with_bass({"--stems", folder.file("stems/")}));
+    for (const char* name : {"1-bass-fretted-E.wav", "1-bass-fretted-G.wav"})
+        EXPECT_EQ(read_wav(folder.file("stems") + "/" + name).channels, 1);
+}
+
+struct Refusal {
+    std::vector<std::string> arguments;
+    int exit_code;
+    std::string message;
+};
+
+TEST(RenderOptions, EveryFailureIsOneLineAndLeavesNothing) {
+    const TemporaryFolder folder;
+    const std::string good = folder.write("good.mid", notes({28}));
+    const std::string scale = folder.write("bad.scl", "x\n1\n0/1\n");
+    const std::string octave = folder.write("octave.scl", "x\n1\n2/1\n");
+    const std::string keys = folder.write("bad.kbm", "0\n0\n999\n");
+    const std::string map =
+        folder.write("map.json", R"({"schema": "jawari.midi-map/1", "bindings": [{"nrpn": 1}]})");
+    const std::size_t written = folder.names().size();
+    const std::vector<Refusal> refusals{
+        {{"--tuning", scale}, 3, "bad.scl: line 3: \"0/1\""},
+        {{"--tuning", folder.file("none.scl")}, 4, "none.scl: No such file"},
+        {{"--tuning", octave, "--keyboard-map", keys}, 3, "bad.kbm: line 3: \"999\""},
+        {{"--keyboard-map", keys}, 2, "--keyboard-map"},
+        {{"--move-frets"}, 2, "--move-frets: given (allowed: only with --tuning)"},
+        {{"--midi-map", map}, 3, "map.json: bindings[0].parameter: missing"},
+        {{"--set", "palm_mute=2"}, 2, "palm_mute=2 (allowed: palm_mute=0 to 1)"},
+        {{"--set", "palm=2"}, 2, "palm=2 (allowed: PARAMETER=VALUE, one of volume"},
+        {{"--set", "palm_mute"}, 2, "palm_mute (allowed: palm_mute=0 to 1)"},
+        {{"--guitar-mode", "17"}, 2, "--guitar-mode: 17 (allowed: a whole number, 1 to 16"},
+        {{"--guitar-mode", "14"}, 2, "--guitar-mode: 14 (allowed: 1 to 13 for this preset's 4 strings"},
+        {{"--limiter", "3"}, 2, "--limiter: 3 (allowed: -40 to 0)"},
+        {{"--seed", "1.5"}, 2, "--seed: 1.5"},
+        {{"--jobs", "0"}, 2, "--jobs: 0"},
+        {{"--quality", "best"}, 2, "best (allowed: live, reference, studio)"},
+        {{"--silence", "0"}, 2, "--silence: 0"},
+        {{"--stems", folder.file("none/")}, 4, "none/1-bass-fretted-E.wav"},
+        {{"--plot", folder.file("p.pdf")}, 2, "p.pdf (allowed: a name that ends in .svg or .png)"},
+        {{good}, 2, "--out"}};
+    for (const Refusal& refusal : refusals) {
+        std::vector<std::string> arguments{"render",       good, "--preset",
+                                           "bass-fretted", "-o", folder.file("o.wav")};
+        arguments.insert(arguments.end(), refusal.arguments.begin(), refusal.arguments.end());
+        const Ran ran = jawari(arguments);
+        EXPECT_EQ(ran.exit_code, refusal.exit_code) << refusal.message << "\n" << ran.err;
+        EXPECT_EQ(ran.error_lines(), 1) << ran.err;
+        EXPECT_NE(ran.err.find(refusal.message), std::string::npos)
+            << ran.err << "expected: " << refusal.message;
+        EXPECT_EQ(ran.out, "");
+    }
+    EXPECT_EQ(folder.names().size(), written);
+}
+
+TEST(RenderOptions, FilesThatWouldOverwriteOneAnotherAreRefused) {
+    const TemporaryFolder folder;
+    std::vector<std::string> arguments{"render", "-o", folder.file("out")};
+    for (const char* name : {"a", "b", "out"}) std::filesystem::create_directory(folder.file(name));
+    for (const char* name : {"a/song.mid", "b/song.mid"})
+        arguments.push_back(folder.write(name, notes({28})));
+    const Ran same_names = jawari(arguments);
+    EXPECT_EQ(same_names.exit_code, 2);
+    EXPECT_EQ(same_names.error_lines(), 1) << same_names.err;
+    EXPECT_NE(same_names.err.find("b/song.mid (allowed: files of different names"), std::string::npos)
+        << same_names.err;
+
+    arguments.back() = "-";
+    const Ran piped = jawari(arguments);
+    EXPECT_EQ(piped.exit_code, 2);
+    EXPECT_EQ(piped.err, "MIDI: - (allowed: standard input only as the one file)\n");
+    EXPECT_TRUE(std::filesystem::is_empty(folder.file("out")));
+}
+
+TEST(RenderOptions, GuitarModeNeedsThePresetWhoseStringsItIsFor) {
+    const TemporaryFolder folder;
+    const Ran ran = jawari(
+        {"render", folder.write("song.mid", notes({28})), "-o", folder.file("o.wav"), "--guitar-mode", "1"});
+    EXPECT_EQ(ran.exit_code, 2);
+    EXPECT_EQ(ran.error_lines(), 1) << ran.err;
+    EXPECT_NE(ran.err.find("--guitar-mode: 1 (allowed: only with --preset NAME)"), std::string::npos)
+        << ran.err;
+}
+
+}  // namespace
+}  // namespace jawari::host

@@ -1,0 +1,51 @@
+#include "devices/midi_receiver.h"
+
+#include <gtest/gtest.h>
+
+#include "devices/midi_inputs.h"
+
+namespace jawari::host {
+namespace {
+
+std::optional<ChannelMessage> from(std::vector<unsigned char> bytes) {
+    return channel_message(bytes);
+}
+
+TEST(ChannelMessageFromDriver, TakesWholeChannelMessages) {
+    const auto note = from({0x93, 60, 100});
+    ASSERT_TRUE(note);
+    EXPECT_EQ(note->status, 0x93);
+    EXPECT_EQ(note->data1, 60);
+    EXPECT_EQ(note->data2, 100);
+    const auto program = from({0xC0, 5});
+    ASSERT_TRUE(program);
+    EXPECT_EQ(program->data2, 0);
+}
+
+TEST(ChannelMessageFromDriver, LeavesOutTheRest) {
+    for (const auto& bytes : std::vector<std::vector<unsigned char>>{{},
+                                                                     {0x90},
+                                                                     {0x90, 60},
+                                                                     {0x90, 60, 100, 1},
+                                                                     {0xC0},
+                                                                     {0xC0, 1, 2},
+                                                                     {0x90, 0x80, 1},
+                                                                     {0x90, 1, 0xFF},
+                                                                     {60, 60, 60},
+                                                                     {0xF0, 1, 0xF7},
+                                                                     {0xF8},
+                                                                     {0xFE}})
+        EXPECT_FALSE(from(bytes));
+}
+
+TEST(LastingName, LeavesOutNumbersThatChangeWhenADeviceIsPluggedInAgain) {
+    EXPECT_EQ(lasting_name("Keystation 49:Keystation 49 MIDI 1 20:0"), "Keystation 49:Keystation 49 MIDI 1");
+    EXPECT_EQ(lasting_name("Keystation 49:Keystation 49 MIDI 1 128:12"),
+              "Keystation 49:Keystation 49 MIDI 1");
+    for (const char* name :
+         {"keyboard:out", "system:midi_capture_1", "Piano 2", "a:1", "", "20:0", " ", "x 20:", "x :0"})
+        EXPECT_EQ(lasting_name(name), name);
+}
+
+}  // namespace
+}  // namespace jawari::host

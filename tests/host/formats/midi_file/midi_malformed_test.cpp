@@ -1,0 +1,152 @@
+// Malformed and hostile files: one clear failure, no crash, no memory taken on a file's word.
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+
+#include "formats/midi_file/midi_file.h"
+#include "support/midi_bytes.h"
+
+namespace jawari::host {
+namespace {
+
+using namespace jawari::test;
+
+std::string failure_of(const Bytes& bytes) {
+    const auto file = parse_midi(bytes);
+    return file.ok() ? "accepted" : file.failure().line();
+}
+
+Bytes one_event_file(const Bytes& event) {
+    Bytes track;
+    append_event(track, 0, event);
+    append_event(track, 0, end_of_track);
+    return file_with_track(track);
+}
+
+void expect_failure(const Bytes& bytes, const std::string& place, const std::string& part) {
+    const std::string line = failure_of(bytes);
+    EXPECT_EQ(line.rfind(place + ": ", 0), 0U) << line << "\n  expected to start with: " << place;
+    EXPECT_NE(line.find(part), std::string::npos) << line << "\n  expected to contain: " << part;
+}
+
+/// Several tracks with every kind of event.
+Bytes rich_file() {
+    Bytes first, second;
+    append_event(first, 0, tempo_event(400000));
+    append_event(first, 0, {0xFF, 0x03, 2, 'h', 'i'});
+    append_event(first, 200, {0xF0, 3, 1, 2, 0xF7});
+    append_event(first, 0, end_of_track);
+    append_event(second, 0, {0x90, 40, 100});
+    append_event(second, 300, {40, 0});
+    append_event(second, 0, {0xC5, 12});
+    append_event(second, 20000, {0xE1, 3, 64});
+    append_event(second, 0, end_of_track);
+    Bytes bytes = header_chunk(1, 2, 96);
+    append(bytes, chunk("MTrk", first));
+    append(bytes, chunk("MTrk", second));
+    return bytes;
+}
+
+TEST(MidiMalformed, EachFaultIsNamedWithItsPlace) {
+    constexpr std::uint8_t track_start = 22;  // MThd 14 bytes, MTrk and its length 8
+    const std::string first_event = "byte " + std::to_string(track_start + 1) + " (track 1)";
+    expect_failure({}, "byte 0", "not a standard MIDI file");
+    expect_failure({'M', 'T', 'h', 'd', 0, 0, 0}, "byte 4", "header");
+    expect_failure({'M', 'T', 'h', 'd', 0xFF, 0xFF, 0xFF, 0xFF, 0, 0}, "byte 4", "4294967295");
+    expect_failure(header_chunk(2, 1, 96), "byte 8", "type 2");
+    expect_failure(header_chunk(0, 2, 96), "byte 10", "2 tracks");
+    expect_failure(header_chunk(1, 0, 96), "byte 10", "0 tracks");
+    expect_failure(header_chunk(0, 1, 0), "byte 12", "division 0");
+    expect_failure(header_chunk(0, 1, 0xE800), "byte 12", "division");  // 24 frames/s, 0 ticks per frame
+    expect_failure(header_chunk(0, 1, 0x8001), "byte 12", "division");  // 128 frames/s
+    expect_failure(header_chunk(0, 1, 96), "byte 14", "ends before track 1");
+    expect_failure(one_event_file({40, 100}), first_event, "without a status byte");
+    expect_failure(one_event_file({0x90, 0x80, 1}), "byte 24 (track 1)", "data byte 0x80");
+    expect_failure(one_event_file({0xF4}), first_event, "status byte 0xF4");
+    expect_failure(one_event_file({0xFF, 0x51, 2, 1, 1}), "byte 26 (track 1)", "tempo of 2 bytes");
+    expect_failure(one_event_file(tempo_event(0)), "byte 26 (track 1)", "tempo of 0");
+    expect_failure(one_event_file({0xFF, 0x81, 0}), "byte 24 (track 1)", "meta event type 0x81");
+    expect_failure(one_event_file({0xF0, 0xFF, 0xFF, 0xFF, 0x7F}), "byte 28 (track 1)", "268435455 bytes");
+    expect_failure(one_event_file({0xF0, 0xFF, 0xFF, 0xFF, 0xFF, 0x01}), "byte 24 (track 1)",
+                   "more than 4 bytes");
+    expect_failure(file_with_track({0x00, 0x90, 40, 100}), "byte 26 (track 1)", "no End of Track");
+    expect_failure(file_with_track({0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0x90, 40, 100}), "byte 22 (track 1)",
+                   "delta time");
+    expect_failure(file_with_track({0x00, 0x90, 40}), "byte 25 (track 1)", "ends inside");
+    expect_failure({'R', 'I', 'F', 'F', 0, 0, 0, 0, 'W', 'A', 'V', 'E'}, "byte 8", "RIFF");
+}
+
+TEST(MidiMalformed, RunningStatusEndsAtMetaAndSystemExclusive) {
+    for (const Bytes& between : {Bytes{0xFF, 0x01, 0}, Bytes{0xF0, 1, 0xF7}}) {
+        Bytes track;
+        append_event(track, 0, {0x90, 40, 100});
+        append_event(track, 0, between);
+        append_event(track, 0, {40, 0});
+        append_event(track, 0, end_of_track);
+        EXPECT_NE(failure_of(file_with_track(track)).find("without a status byte"), std::string::npos);
+    }
+}
+
+TEST(MidiMalformed, HostileLengthsAndTimes) {
+    Bytes bytes = header_chunk(1, 65535, 96);
+    append_tag(bytes, "MTrk");
+    append_big_endian(bytes, 0xFFFFFFFF, 4);
+    expect_failure(bytes, "byte 18 (track 1)", "4294967295 bytes");
+
+    Bytes track;
+    append_event(track, 0, tempo_event(0xFFFFFF));
+    for (int i = 0; i < 100; ++i) append_event(track, 0x0FFFFFFF, {0x90, 40, 100});
+    append_event(track, 0, end_of_track);
+    EXPECT_NE(failure_of(file_with_track(track, 1)).find("24 hours"), std::string::npos);
+    EXPECT_NE(failure_of(Bytes(max_midi_file_bytes + 1)).find("at most"), std::string::npos);
+}
+
+TEST(MidiMalformed, TruncatedAnywhereIsRefused) {
+    const Bytes whole = rich_file();
+    ASSERT_EQ(failure_of(whole), "accepted");
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+        EXPECT_NE(failure_of(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length))),
+                  "accepted")
+            << length;
+    }
+}
+
+TEST(MidiMalformed, DamagedBytesNeverDoHarm) {
+    // Whatever the result, events stay ordered and inside their ranges; memory errors are for the sanitizer
+    // builds.
+    const auto check = [](const Bytes& bytes) {
+        const auto file = parse_midi(bytes);
+        if (!file.ok()) {
+            EXPECT_FALSE(file.failure().place.empty());
+            EXPECT_EQ(file.failure().line().find('\n'), std::string::npos);
+            return;
+        }
+        std::uint64_t time = 0;
+        for (const MidiEvent& e : file.value().events) {
+            EXPECT_GE(e.time, time);
+            time = e.time;
+            EXPECT_TRUE(e.status >= 0x80 && e.status < 0xF0 && e.data1 < 128 && e.data2 < 128);
+        }
+        EXPECT_GE(file.value().end_time, time);
+    };
+    const Bytes whole = rich_file();
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        for (int value = 0; value < 256; ++value) {
+            Bytes damaged = whole;
+            damaged[i] = static_cast<std::uint8_t>(value);
+            check(damaged);
+        }
+    }
+    std::mt19937 random(7);
+    for (int trial = 0; trial < 20000; ++trial) {
+        Bytes damaged = whole;
+        for (unsigned n = 0, count = 1 + static_cast<unsigned>(random() % 8); n < count; ++n) {
+            damaged[random() % damaged.size()] = static_cast<std::uint8_t>(random());
+        }
+        check(damaged);
+    }
+}
+
+}  // namespace
+}  // namespace jawari::host
