@@ -26,9 +26,10 @@ TEST_FILE = re.compile(r"\b\w+_test\b(?!\.)")
 IDENTIFIER = re.compile(r"`([a-z]+(?:_[a-z0-9]+)+)`")
 MEMBER = re.compile(r"\b([A-Z]\w*)::([a-z_]\w*|[A-Z]\w*)\b")
 PAGE_IN_SOURCE = re.compile(r"\bdocs/[\w/-]+\.md\b")
+TYPE_HEAD = re.compile(r"\b(?:struct|class|enum class|namespace)\s+(\w+)[^;{}()]*\{")
 DEFINED_TEST = re.compile(r"\b(?:TYPED_)?TEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\s*\)")
 IGNORED_FOLDERS = {".git", "build", "__pycache__", ".cache", "third_party"}
-SYSTEM_HEADERS = {"limits.h", "math.h"}
+FOREIGN_TYPES = {"MoreauJeanBilbaoOSI"}
 
 
 def tree(root):
@@ -55,6 +56,21 @@ def pattern_of(name):
     return re.sub(r"(?<![a-z0-9_])[A-Z][A-Z_]+(?![a-z])", "*", name)
 
 
+def members(code):
+    """Type or namespace -> the words between its braces, over all definitions of that name."""
+    found = {}
+    code = re.sub(r"//[^\n]*", "", code)
+    for head in TYPE_HEAD.finditer(code):
+        depth, at = 1, head.end()
+        for brace in re.compile(r"[{}]").finditer(code, head.end()):
+            depth += 1 if brace[0] == "{" else -1
+            if depth == 0:
+                at = brace.start()
+                break
+        found.setdefault(head[1], set()).update(re.findall(r"\w+", code[head.end():at]))
+    return found
+
+
 class Tree:
     def __init__(self, root):
         self.root = root
@@ -66,6 +82,11 @@ class Tree:
         code = "\n".join(text for path, text in self.sources.items() if path.endswith((".cpp", ".h")))
         self.words = set(re.findall(r"\w+", "\n".join(self.sources.values())))
         self.words |= {pathlib.PurePosixPath(path).stem for path in self.paths}
+        self.members = {}
+        for path, text in self.sources.items():
+            if path.endswith(".h") or path.startswith("tests/") and path.endswith(".cpp"):
+                for kind, words in members(text).items():
+                    self.members.setdefault(kind, set()).update(words)
         self.tests = {f"{suite}.{name}" for suite, name in DEFINED_TEST.findall(code)}
         self.cmake = "\n".join(text for path, text in self.sources.items() if path.endswith("CMakeLists.txt"))
 
@@ -97,7 +118,7 @@ def link_faults(root, base, page):
 def name_faults(tree_, page):
     text = LINK.sub(" ", page)
     for name in sorted(set(SOURCE_NAME.findall(text))):
-        if name not in SYSTEM_HEADERS and not tree_.has(name):
+        if not tree_.has(name):
             yield f"{name}: no such file"
     words = [word.rstrip(",;:)") for quoted in QUOTED.findall(text) for word in quoted.split()]
     words += [word.rstrip(",;:)") for line in re.findall(r"^    .*$", text, flags=re.M) for word in line.split()]
@@ -119,7 +140,7 @@ def name_faults(tree_, page):
         if word not in tree_.words:
             yield f"{word}: not a word of any source"
     for kind, member in sorted(set(MEMBER.findall(text))):
-        if kind not in tree_.words or member not in tree_.words:
+        if kind not in FOREIGN_TYPES and member not in tree_.members.get(kind, set()):
             yield f"{kind}::{member}: no such member"
 
 
