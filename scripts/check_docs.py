@@ -5,6 +5,7 @@ usage: check_docs.py [ROOT]
 
 Prints one line per fault and exits with 1 if there are any. Checked are README.md and the other pages at the root, docs/**/*.md and
 benchmarks/page/sections.md (a part of docs/benchmarks.md). In all other sources only the names of pages are checked (docs/NAME.md).
+docs/README.md must have a link to every page of docs.
 
 A file name resolves if a file of the tree has that path or that end of a path: `frame.cpp`, `string/frame/frame.cpp`. Words in capital
 letters and asterisks stand for anything: `presets/instruments/NAME.json`. Names without a suffix of source code are checked if they
@@ -156,6 +157,9 @@ def main():
         inner = [f for f in link_faults(root, base, page) if not f.startswith("link to #")]
         inner += [f for f in link_faults(root, base, whole) if f.startswith("link to #")]
         faults += [f"{path}: {fault}" for fault in [*inner, *name_faults(tree_, page)]]
+    index = (root / "docs/README.md").read_text(encoding="utf-8")
+    faults += [f"docs/README.md: {path} is missing" for path in pages
+               if path.startswith("docs/") and path != "docs/README.md" and f"({path.removeprefix('docs/')}" not in index]
     for path, text in tree_.sources.items():
         faults += [f"{path}: {page}: no such page" for page in sorted(set(PAGE_IN_SOURCE.findall(text)))
                    if "NAME" not in page and page not in tree_.paths]
