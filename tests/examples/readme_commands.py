@@ -6,7 +6,8 @@ usage: readme_commands.py JAWARI        the program; the README is the one of th
 Lines of ```sh blocks run one after the other in one shell, in an empty folder that holds links to the tree's folders, with
 JAWARI where `build/release/bin/jawari` is. Not run, but checked: `jawari play` and `jawari devices` need devices, so every
 option of theirs must be in their --help; `bash scripts/...` builds everything, so the script must be there. Lines of ```cpp
-blocks must be lines of the programs in docs/examples/embed, which examples.embed builds. Every link must lead to a file.
+blocks must be lines of the programs in docs/examples/embed, which examples.embed builds. Links are checked by
+scripts/check_docs.py.
 """
 import pathlib
 import re
@@ -59,12 +60,6 @@ def embed_problems(text):
             if line.strip() and " ".join(line.split()) not in programs]
 
 
-def link_problems(text):
-    targets = re.findall(r"\]\(([^)#]+)[^)]*\)", text)
-    return [f"link to {target}: no such file" for target in targets
-            if not target.startswith("http") and not (ROOT / target).exists()]
-
-
 def main():
     program = pathlib.Path(sys.argv[1]).resolve()
     text = (ROOT / "README.md").read_text()
@@ -79,7 +74,7 @@ def main():
         (folder / "build/release/bin").mkdir(parents=True)
         (folder / "build/release/bin/jawari").symlink_to(program)
         problems = run_commands(str(program), lines, folder)
-    problems += embed_problems(text) + link_problems(text)
+    problems += embed_problems(text)
     for problem in problems:
         print(problem, file=sys.stderr)
     if problems:
