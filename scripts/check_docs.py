@@ -29,7 +29,7 @@ MEMBER = re.compile(r"\b([A-Z]\w*)::([a-z_]\w*|[A-Z]\w*)\b")
 PAGE_IN_SOURCE = re.compile(r"\bdocs/[\w/-]+\.md\b")
 TYPE_HEAD = re.compile(r"\b(?:struct|class|enum class|namespace)\s+(\w+)[^;{}()]*\{")
 DEFINED_TEST = re.compile(r"\b(?:TYPED_)?TEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\s*\)")
-IGNORED_FOLDERS = {".git", "build", "__pycache__", ".cache", "third_party"}
+IGNORED_FOLDERS = {".git", "build", "out", "__pycache__", ".cache", "third_party"}
 FOREIGN_TYPES = {"MoreauJeanBilbaoOSI"}
 
 
