@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "jawari/detail/aligned.h"
@@ -11,6 +12,9 @@
 #include "jawari/scene/skipping.h"
 
 namespace jawari {
+
+/// The number of no frame: a value stamped with it holds nowhere.
+inline constexpr std::uint64_t unknown_frame = std::numeric_limits<std::uint64_t>::max();
 
 /// What happened since make_state().
 struct Counters {
@@ -74,6 +78,9 @@ struct ContactState {
     std::size_t candidate_count = 0;
     std::size_t moving_count = 0;
     double left_open = 0;  ///< what the last solve left of a violation [m]; 0 if it was truncated
+    /// While StringState::frame has this value, step() continues the gaps of all contacts; else it first
+    /// computes them from the modes.
+    std::uint64_t stepping_in_frame = unknown_frame;
 };
 
 /// The low modes flown ahead, and what they show of contacts; see lookout.h.
@@ -202,7 +209,8 @@ struct ShortFrameState {
     /// contacts in `response_known` hold until forget_responses(), short_frame.h.
     AlignedVector<double> step_response;
     std::vector<std::uint8_t> response_known;
-    std::uint64_t gaps_at = 0;  ///< frame at whose start contact.gap and gap_before hold for all contacts
+    std::uint64_t gaps_at =
+        unknown_frame;  ///< frame at whose start contact.gap and gap_before hold for all contacts
     PivotTable table;
 };
 

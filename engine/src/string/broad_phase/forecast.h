@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "jawari/detail/string_model.h"
@@ -28,7 +27,7 @@ std::size_t look_at_flown(const StringModel& model, StringState& state, std::siz
 /// The low modes' gaps do not go on into the coming frame: an impulse has acted.
 inline void forget_low_gaps(StringState& state) JAWARI_REALTIME {
     std::vector<std::uint64_t>& known = state.certificate.lookout.gap_at;
-    std::fill(known.begin(), known.end(), std::numeric_limits<std::uint64_t>::max());
+    std::fill(known.begin(), known.end(), unknown_frame);
 }
 
 }  // namespace jawari

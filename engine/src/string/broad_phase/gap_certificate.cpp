@@ -13,8 +13,6 @@
 namespace jawari {
 namespace {
 
-constexpr std::uint64_t unknown_frame = std::numeric_limits<std::uint64_t>::max();
-
 /// How far a group's gaps may move in the coming frame, the law's lookahead included.
 double frame_travel(const StringModel& model, double speed) {
     return speed * (frame_length(model) + lookahead(model));
@@ -307,6 +305,7 @@ void forget_bounds(StringState& state) JAWARI_REALTIME {
     bounds.free_frames = 0;
     bounds.struck = false;
     bounds.presumed_near = 0;
+    state.contact.stepping_in_frame = unknown_frame;
     state.short_frame.gaps_at = unknown_frame;
     std::fill(bounds.open_until.begin(), bounds.open_until.end(), -std::numeric_limits<double>::infinity());
     std::fill(bounds.frame_gap_at.begin(), bounds.frame_gap_at.end(), unknown_frame);

@@ -9,6 +9,7 @@
 #include "string/frame/frame.h"
 #include "string/frame/near_frame.h"
 #include "string/frame/short_frame.h"
+#include "string/frame/step.h"
 #include "string/kernels/flight.h"
 #include "string/kernels/mode_bounds.h"
 #include "string/kernels/mode_sums.h"
@@ -32,7 +33,7 @@ bool may_skip(const StringModel& model, const StringState& state) {
 bool step_through(const StringModel& model, StringState& state) {
     const std::uint64_t impulses_before = state.counters.impulses;
     place_gaps(model, state);
-    for (state.steps_left = model.steps_per_frame; state.steps_left > 0;) step(model, state);
+    for (state.steps_left = model.steps_per_frame; state.steps_left > 0;) step_near_contacts(model, state);
     return state.counters.impulses != impulses_before;
 }
 

@@ -50,14 +50,14 @@ CertificateState make_certificate_state(const StringSizes& sizes) {
     for (auto* array : {&bounds.open_until, &bounds.margin, &bounds.frame_gap, &bounds.frame_end_gap}) {
         array->assign(sizes.contacts, 0.0);
     }
-    bounds.certified_at.assign(sizes.contacts, 0);
+    bounds.certified_at.assign(sizes.contacts, unknown_frame);
     LookoutState& lookout = bounds.lookout;
     for (auto* array : {&lookout.displacement, &lookout.velocity}) array->assign(lookout_modes, 0.0);
     for (auto* array : {&lookout.group_detour, &lookout.group_overtones}) array->assign(sizes.groups, 0.0);
     for (auto* array : {&lookout.gap, &lookout.gap_end}) array->assign(sizes.contacts, 0.0);
-    lookout.gap_at.assign(sizes.contacts, 0);
+    lookout.gap_at.assign(sizes.contacts, unknown_frame);
     for (auto* list : {&lookout.watched, &lookout.unknown}) list->assign(sizes.contacts, 0);
-    bounds.frame_gap_at.assign(sizes.contacts, 0);
+    bounds.frame_gap_at.assign(sizes.contacts, unknown_frame);
     bounds.expired.assign(sizes.contacts, 0);
     for (auto* list : {&bounds.expired_groups, &bounds.missing_groups}) list->assign(sizes.groups, 0);
     for (auto* flags : {&bounds.group_has_detour, &bounds.group_has_clearance, &bounds.group_has_lookout})
@@ -202,6 +202,7 @@ void notice_change(const StringModel& model, StringState& state) noexcept {
     choose_all_contacts(model, state);
     place_gaps(model, state);
     forget_bounds(state);
+    state.contact.stepping_in_frame = state.frame;
 }
 
 void leave_obstacles(StringState& state) noexcept {

@@ -1,9 +1,11 @@
 // One contact step, stage by stage (DESIGN of the stages: docs/engine/model.md, "The time step").
 #include <algorithm>
 
+#include "base/assert.h"
 #include "jawari/scene/render.h"
 #include "string/broad_phase/pushed_contacts.h"
 #include "string/contact/contact_stage.h"
+#include "string/frame/step.h"
 #include "string/kernels/mode_sums.h"
 #include "string/state/metering.h"
 
@@ -57,7 +59,7 @@ void advance_displacement(const StringModel& model, StringState& state) {
 
 }  // namespace
 
-void step(const StringModel& model, StringState& state) JAWARI_REALTIME {
+void step_near_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME {
     remember(model, state);
     move_obstacles(state.contact);
     predict_velocity(model, state);
@@ -74,6 +76,13 @@ void step(const StringModel& model, StringState& state) JAWARI_REALTIME {
     state.excitation.elapsed += 1;
     state.counters.steps += 1;
     if (state.steps_left > 0) state.steps_left -= 1;
+}
+
+void step(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    JAWARI_ASSERT(state.displacement.size() >= model.stride);
+    // A frame leaves the gaps of most contacts unknown, and steps leave its bounds behind.
+    if (state.contact.stepping_in_frame != state.frame) notice_change(model, state);
+    step_near_contacts(model, state);
 }
 
 }  // namespace jawari
