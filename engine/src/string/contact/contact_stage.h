@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "base/assert.h"
 #include "jawari/detail/string_model.h"
 #include "jawari/detail/string_state.h"
 #include "jawari/realtime.h"
@@ -13,6 +14,13 @@ namespace jawari {
 /// Depth [m] that rounding and the residual of the last solve explain: ContactMoment::excused.
 inline double excused_depth(const StringModel& model, const ContactState& contact) {
     return model.gap_rounding_m + contact.left_open;
+}
+
+/// Contact `c` joins the near contacts. Precondition: it is not one of them.
+inline void make_near(ContactState& contact, std::size_t c) noexcept {
+    JAWARI_ASSERT(contact.is_near[c] == 0);
+    contact.near.push(c);
+    contact.is_near[c] = 1;
 }
 
 /// gap <- S q - b and gap_before <- the same one step earlier, for the near contacts.

@@ -47,12 +47,12 @@ bool solve_short_frame(const StringModel& model, StringState& state) JAWARI_REAL
     if (frame.gaps_at != state.frame || state.frame % gap_period == 0) place_all_gaps(model, state);
     bool finite = kernels::run_freely(model, state);
     finite = kernels::solve_steps(model, state) && finite;
-    std::vector<double>& claims = state.certificate.open_until;  // none, until note_short_frame()
-    std::fill(claims.begin(), claims.end(), -std::numeric_limits<double>::infinity());
-    const bool struck = frame.struck_count > 0;
+    std::vector<double>& open_until = state.certificate.bounds.open_until;  // until note_short_frame()
+    std::fill(open_until.begin(), open_until.end(), -std::numeric_limits<double>::infinity());
+    const bool struck = !frame.struck.empty();
     if (struck) {
         state.active_modes = model.stride;
-        state.certificate.outdated = true;
+        state.certificate.validity.outdated = true;
         forget_low_gaps(state);
         finite = kernels::add_response(model, state) && finite;
     }
@@ -70,10 +70,10 @@ void forget_responses(StringState& state) JAWARI_REALTIME {
 }
 
 void note_short_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    CertificateState& bounds = state.certificate;
+    GapBounds& bounds = state.certificate.bounds;
     for (std::size_t c = 0; c < model.contact_count; ++c) {
         bounds.frame_gap[c] = state.contact.gap[c];
-        bounds.frame_gap_at[c] = state.frame;
+        state.certificate.validity.frame_gap_at[c] = state.frame;
         bounds.open_until[c] = bounds.group_odometer[group_of(model, c)] + state.contact.gap[c];
     }
 }

@@ -322,7 +322,7 @@ TEST(Step, MixesWithFramesInAnyOrder) {
         for (int turn = 0; turn < 12; ++turn) {
             for (int n = 0; n < 47; ++n) advance_frame(model, state);
             ASSERT_LE(true_depth(model, state), allowed_m) << "frames of turn " << turn;
-            fewest = std::min(fewest, state.contact.near_count);
+            fewest = std::min(fewest, state.contact.near.size());
             const std::uint64_t before = state.counters.impulses;
             for (int n = 0; n < 60; ++n) {
                 for (std::size_t i = 0; i < model.steps_per_frame; ++i) step(model, state);
