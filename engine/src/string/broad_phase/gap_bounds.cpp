@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/assert.h"
 #include "string/contact/contact_stage.h"
 #include "string/kernels/mode_bounds.h"
 #include "string/kernels/mode_sums.h"
@@ -12,15 +13,15 @@
 namespace jawari {
 namespace {
 
-/// In free flight bounds only become tighter when computed anew; this often is enough.
+/// Frames between refreshes in free flight, where the bounds stay valid and a refresh only tightens them.
 constexpr std::uint64_t refresh_period = 32;
-/// Under excitation they grow with every frame.
+/// Frames between refreshes under excitation, where the bounds grow with every frame.
 constexpr std::uint64_t excited_refresh_period = 8;
 
-/// Of the way to the nearest contact, what passive forces may bend the string by within a frame.
+/// The share of the way to the nearest contact that passive forces may bend the string by within a frame.
 constexpr double share_of_forces = 0.1;
 
-/// Modes behind the last one that matters are put to rest and leave the sums.
+/// Puts the modes behind the last one that matters to rest; they leave the sums.
 void drop_weak_modes(const StringModel& model, StringState& state, const kernels::LargestBounds& largest) {
     const GapBounds& bounds = state.certificate.bounds;
     std::size_t active = state.active_modes;
@@ -43,7 +44,7 @@ bool has_faded(const StringState& state, const kernels::LargestBounds& largest) 
            largest.extent <= sleep_threshold * bounds.strongest_extent;
 }
 
-/// At rest, until a force or a moving obstacle wakes the string.
+/// Puts the string to rest until a force or a moving obstacle wakes it.
 void fall_asleep(StringState& state) {
     for (auto* array : {&state.displacement, &state.velocity, &state.velocity_before,
                         &state.displacement_flown, &state.velocity_flown}) {
@@ -61,7 +62,7 @@ bool stays_passive(const StringState& state) {
            (excitation.passive && excitation.strength_N <= state.certificate.clear.force_N);
 }
 
-/// From the obstacles' present heights.
+/// Computes the limits of ClearState from the obstacles' present heights.
 void set_clear_limits(const StringModel& model, StringState& state) {
     ClearState& clear = state.certificate.clear;
     clear.limits_valid = true;
@@ -145,7 +146,7 @@ struct ForceBoundsOfParts {
     kernels::ForceBounds low, high;
 };
 
-/// From every mode's own force.
+/// Bounds from the force on each mode.
 ForceBoundsOfParts bounds_by_mode(const StringModel& model, const ExcitationState& excitation) {
     const std::size_t low = std::min(low_modes(model), excitation.modes);
     const auto first = static_cast<double>(excitation.elapsed);
@@ -157,7 +158,7 @@ ForceBoundsOfParts bounds_by_mode(const StringModel& model, const ExcitationStat
     return {bounds_of(0, low), bounds_of(low, excitation.modes)};
 }
 
-/// From the strength of held point forces: no mode's force exceeds sqrt(2/L) times it.
+/// Bounds from the strength of held point forces: no mode's force exceeds sqrt(2/L) times it.
 ForceBoundsOfParts bounds_by_strength(const StringModel& model, StringState& state) {
     const std::size_t modes = state.excitation.modes;
     UnitKick& unit = state.certificate.bounds.unit_kick;
@@ -225,6 +226,7 @@ void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIM
 }
 
 void wake_excited_modes(StringState& state) JAWARI_REALTIME {
+    JAWARI_ASSERT(state.excitation.modes <= state.displacement.size());
     const std::size_t excited = state.excitation.modes;
     if (excited <= state.active_modes) return;
     GapBounds& bounds = state.certificate.bounds;
@@ -236,6 +238,7 @@ void wake_excited_modes(StringState& state) JAWARI_REALTIME {
 }
 
 void add_kicks(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    JAWARI_ASSERT(is_excited(state));
     const ForceBoundsOfParts force =
         state.excitation.passive ? bounds_by_strength(model, state) : bounds_by_mode(model, state.excitation);
     KickState& kicks = state.certificate.bounds.kicks;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/assert.h"
 #include "jawari/detail/lcp.h"
 #include "string/contact/impact_law.h"
 #include "string/kernels/mode_sums.h"
@@ -69,6 +70,7 @@ void place_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
 }
 
 void join_step(const StringModel& model, StringState& state, std::size_t c) JAWARI_REALTIME {
+    JAWARI_ASSERT(c < model.contact_count);
     ContactState& contact = state.contact;
     const auto row_product = [&](const AlignedVector<double>& x) {
         const auto index = static_cast<std::uint32_t>(c);

@@ -30,7 +30,7 @@ void place_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME;
 /// holds v_free, velocity_before the step's v.
 void join_step(const StringModel& model, StringState& state, std::size_t c) JAWARI_REALTIME;
 
-/// Moves the obstacles that are on their way by one step.
+/// Moves the moving obstacles by one step.
 void move_obstacles(ContactState& contact) JAWARI_REALTIME;
 
 /// gap_rate <- S v of the step's start at the near contacts; needed by the theta scheme only.

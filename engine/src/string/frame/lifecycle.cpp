@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/assert.h"
 #include "jawari/scene/energy.h"
 #include "string/broad_phase/gap_bounds.h"
 #include "string/broad_phase/gap_certificate.h"
@@ -194,6 +195,8 @@ SceneState make_state(const SceneModel& model, Metering metering, Skipping skipp
 }
 
 void reset(const StringModel& model, StringState& state) noexcept {
+    JAWARI_ASSERT(state.displacement.size() >= model.stride);
+    JAWARI_ASSERT(state.contact.gap.size() >= model.contact_count);
     std::copy(model.initial_displacement.begin(), model.initial_displacement.end(),
               state.displacement.begin());
     std::copy(model.initial_velocity.begin(), model.initial_velocity.end(), state.velocity.begin());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/assert.h"
 #include "string/broad_phase/gap_bounds.h"
 #include "string/broad_phase/gap_certificate.h"
 #include "string/contact/contact_stage.h"
@@ -14,7 +15,8 @@
 namespace jawari {
 namespace {
 
-/// force_rows and force_impulses <- the excitation of the coming frame, for unit mobility's run over modes.
+/// force_rows and force_impulses <- the excitation of the coming frame, for a run over modes of unit
+/// mobility.
 void drive_by_excitation(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
     const ExcitationState& excitation = state.excitation;
@@ -82,7 +84,7 @@ double* impulses_of(const StringModel& model, NearState& near, std::uint32_t con
     return impulses;
 }
 
-/// Impulses of the step that are positive, kept for the modes.
+/// Keeps the step's positive impulses for run_impulses().
 void keep_impulses(const StringModel& model, StringState& state, std::size_t n) {
     const ContactState& contact = state.contact;
     for (const auto struck : contact.candidates) {
@@ -91,7 +93,7 @@ void keep_impulses(const StringModel& model, StringState& state, std::size_t n) 
     }
 }
 
-/// Adds what the step's impulses do to the rates of all later steps, over time for each near contact.
+/// Adds the responses to the step's impulses to the rates of all later steps, contact by contact.
 void spread_over_time(const StringModel& model, StringState& state, std::size_t n) {
     const ContactState& contact = state.contact;
     for (const auto struck : contact.candidates) {
@@ -102,7 +104,7 @@ void spread_over_time(const StringModel& model, StringState& state, std::size_t 
     }
 }
 
-/// The same over all contacts for each later step.
+/// Adds the responses to the step's impulses to the rates of all later steps, step by step.
 void spread_over_contacts(const StringModel& model, StringState& state, std::size_t n) {
     const ContactState& contact = state.contact;
     const std::size_t stride = model.contact_stride;
@@ -142,7 +144,7 @@ void begin_rates(const StringModel& model, StringState& state) {
     }
 }
 
-/// The causal loop: one small complementarity problem a step.
+/// Solves one complementarity problem a step, in the order of time.
 void solve_in_contact_space(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
     begin_rates(model, state);
@@ -185,8 +187,8 @@ bool admit_pushed(const StringModel& model, StringState& state) {
     return contact.near.size() > before;
 }
 
-/// The frame's end receives the response of the modes to the impulses, run for unit mobility and scaled at
-/// the end.
+/// Adds the response of the modes to the impulses to the frame's end. It is computed for unit mobility and
+/// scaled at the end.
 void run_impulses(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
     state.active_modes = model.stride;
@@ -213,6 +215,7 @@ void run_impulses(const StringModel& model, StringState& state) {
 }  // namespace
 
 bool solve_near_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    JAWARI_ASSERT(!model.response.empty() && state.near_frame.rates.size() >= model.response_stride);
     ContactState& contact = state.contact;
     std::size_t known = 0;
     place_gaps(model, state);

@@ -21,7 +21,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Lanes = hn::ScalableTag<double>;
 using Vec = hn::Vec<Lanes>;
 
-/// A solution whose residual is above this share of the worst violation is left to the general solver.
+/// The general solver takes over if the residual exceeds this share of the worst violation.
 constexpr double largest_relative_residual = 1e-9;
 
 /// min(0, y_before + excused), impact_law.h

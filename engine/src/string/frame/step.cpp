@@ -1,4 +1,4 @@
-// One contact step, stage by stage (DESIGN of the stages: docs/engine/model.md, "The time step").
+// One contact step, stage by stage (docs/engine/model.md, "The time step").
 #include <algorithm>
 
 #include "base/assert.h"
@@ -12,7 +12,7 @@
 namespace jawari {
 namespace {
 
-/// velocity_before <- v; its old storage receives the step's new velocity.
+/// velocity_before <- v. The old storage of velocity_before receives the step's new velocity.
 void remember(const StringModel& model, StringState& state) {
     state.velocity.swap(state.velocity_before);
     if (state.metering == Metering::Step) {
@@ -35,7 +35,8 @@ void predict_velocity(const StringModel& model, StringState& state) {
                          model.mobility.data(), excitation.ramp.data(), state.velocity.data());
 }
 
-/// lambda of the step; contacts that it may push in become near, and the impulses are found again with them.
+/// Solves for lambda of the step. Contacts that lambda may push in become near, and the problem is solved
+/// again with them.
 void find_impulses(const StringModel& model, StringState& state) {
     state.active_modes = model.stride;  // an impulse wakes every mode
     solve_impulses(model, state);
