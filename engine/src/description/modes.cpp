@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include "base/assert.h"
 #include "base/square.h"
 
 namespace jawari {
@@ -88,6 +89,7 @@ double sin_pi(double t) {
 }  // namespace
 
 Modes modes_of(const StringDescription& string) {
+    JAWARI_ASSERT(string.length_m > 0 && string.linear_density_kg_per_m > 0);
     if (const auto* physical = std::get_if<PhysicalModes>(&string.modes))
         return physical_modes(string, *physical);
     const auto& table = std::get<ModeTable>(string.modes);

@@ -1,6 +1,9 @@
 #include "jawari/scene/obstacles.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "base/assert.h"
 
 namespace jawari {
 namespace {
@@ -34,6 +37,10 @@ std::vector<ContactDescription> equal_temperament_frets(double length_m, std::sp
 
 std::vector<ContactDescription> sampled_neck(double length_m, std::size_t grid_points,
                                              std::span<const ProfilePoint> profile, double restitution) {
+    JAWARI_ASSERT(!profile.empty());
+    JAWARI_ASSERT(
+        std::is_sorted(profile.begin(), profile.end(),
+                       [](const ProfilePoint& a, const ProfilePoint& b) { return a.first < b.first; }));
     std::vector<ContactDescription> contacts;
     for (std::size_t j = 1; j <= grid_points; ++j) {
         const double x = length_m * static_cast<double>(j) / static_cast<double>(grid_points + 1);

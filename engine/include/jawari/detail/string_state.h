@@ -1,16 +1,24 @@
-// Everything that changes while a scene is rendered: plain data, fully initialised by make_state().
+// Everything that changes while a scene is rendered: plain data, fully initialised by make_state(). A copy is
+// a snapshot. Structs have up to four sections: state (must survive), bounds (what the broad phase has proven
+// of the state), scratch (holds within one frame or step) and counters. A comment ends with who writes the
+// array.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "jawari/detail/aligned.h"
+#include "jawari/detail/index_list.h"
 #include "jawari/detail/lcp.h"
 #include "jawari/detail/string_model.h"
 #include "jawari/scene/skipping.h"
 
 namespace jawari {
+
+/// The number of no frame: a value stamped with it holds nowhere.
+inline constexpr std::uint64_t unknown_frame = std::numeric_limits<std::uint64_t>::max();
 
 /// What happened since make_state().
 struct Counters {
@@ -50,44 +58,40 @@ enum class Metering {
     Step    ///< the whole balance at each step; about twice the cost
 };
 
-/// Contact coordinates; arrays over the model's contacts, padded to contact_stride.
-struct ContactState {
-    AlignedVector<double> gap;                 ///< y [m]
-    AlignedVector<double> gap_before;          ///< y one step earlier
-    AlignedVector<double> height;              ///< b [m], starts from the model's contact_height
-    AlignedVector<double> height_before;       ///< b one step earlier
-    AlignedVector<double> height_rise_before;  ///< change of b in the step before [m]
-    AlignedVector<double> height_rate;         ///< change of b per step while moving [m]
-    std::vector<std::uint64_t> moving_steps;   ///< steps left of a movement
-    AlignedVector<double> height_target;       ///< b at the end of the movement
-    AlignedVector<double> impulse;             ///< lambda of the last step [N s]; also the warm start
-    AlignedVector<double> frame_impulse;       ///< sum of lambda over the frame [N s]
-    AlignedVector<double> gap_free;            ///< scratch: y_free
-    AlignedVector<double> gap_rate;            ///< scratch: S v of the step's start (theta scheme)
-    AlignedVector<double> offset;              ///< scratch: r = y_free - tau
-    AlignedVector<double> residual;            ///< scratch: r + A lambda
-    std::vector<std::uint32_t>
-        near;  ///< contacts evaluated at each step; `near_count` are valid, gaps of others are stale
-    std::vector<std::uint8_t> is_near;  ///< the same as flags
-    std::size_t near_count = 0;
-    std::vector<std::uint32_t> candidates;  ///< scratch: indices; `candidate_count` are valid
-    std::size_t candidate_count = 0;
-    std::size_t moving_count = 0;
+/// What a frame that is solved again must find as it was at the frame's start.
+struct ContactGaps {
+    AlignedVector<double> gap;            ///< y [m]; place_gaps(), accept_gaps(), short frames
+    AlignedVector<double> gap_before;     ///< y one step earlier; the same functions
+    AlignedVector<double> impulse;        ///< lambda of the last step [N s], the next warm start; the solvers
+    AlignedVector<double> frame_impulse;  ///< sum of lambda over the frame [N s]; accept_gaps(), short frames
     double left_open = 0;  ///< what the last solve left of a violation [m]; 0 if it was truncated
 };
 
-/// The low modes flown ahead, and what they show of contacts; see lookout.h.
-struct LookoutState {
-    AlignedVector<double> displacement, velocity;  ///< scratch over the low modes
-    std::vector<double> group_detour;     ///< of the low modes, as CertificateState::group_detour [m]
-    std::vector<double> group_overtones;  ///< what all other modes can displace a gap by [m]
-    std::vector<double> gap, gap_end;     ///< per contact: of the low modes, at a frame's ends [m]
-    std::vector<std::uint64_t> gap_at;    ///< frame at whose start `gap` holds, under excitation
-    std::vector<std::uint32_t> watched;   ///< scratch: contacts that the odometer does not certify far enough
-    std::vector<std::uint32_t> unknown;   ///< scratch
+/// Contact coordinates; arrays over the model's contacts, padded to contact_stride.
+struct ContactState : ContactGaps {
+    // -- state
+    AlignedVector<double> height;         ///< b [m]; move_obstacles(), from the model's contact_height on
+    AlignedVector<double> height_before;  ///< b one step earlier; move_obstacles()
+    AlignedVector<double> height_rise_before;  ///< change of b in the step before [m]; move_obstacles()
+    AlignedVector<double> height_rate;         ///< change of b per step while moving [m]; move_contact()
+    AlignedVector<double> height_target;       ///< b at the end of the movement; move_contact()
+    std::vector<std::uint64_t> moving_steps;   ///< steps left of a movement; move_contact(), move_obstacles()
+    std::size_t moving_count = 0;              ///< contacts that move; move_contact(), move_obstacles()
+    /// While StringState::frame has this value, step() continues the gaps of all contacts; else it first
+    /// computes them from the modes. notice_change() and forget_bounds() write it.
+    std::uint64_t stepping_in_frame = unknown_frame;
+    // -- broad phase
+    IndexList near;  ///< contacts evaluated at each step, the gaps of others are stale; make_near()
+    std::vector<std::uint8_t> is_near;  ///< 1 for the contacts in `near`; make_near()
+    // -- scratch of a step
+    IndexList candidates;            ///< contacts on which the impact law acts; select_candidates()
+    AlignedVector<double> gap_free;  ///< y_free; predict_gaps()
+    AlignedVector<double> gap_rate;  ///< S v of the step's start (theta scheme); note_approach()
+    AlignedVector<double> offset;    ///< r = y_free - tau; select_candidates()
+    AlignedVector<double> residual;  ///< r + A lambda; the solvers
 };
 
-/// What the excitation adds to the bounds of every gap, docs/engine/certificate.md, section 4.
+/// What the excitation adds to the bounds of every gap, docs/engine/certificate.md, section 4; add_kicks().
 struct KickState {
     // by the frames since the last refresh, the coming one included
     double speed = 0;       ///< [m/s]
@@ -100,110 +104,167 @@ struct KickState {
 };
 
 /// What a modal force of 1 N m^(-1/2) on each of the modes that forces reach does to the bounds in a unit of
-/// time: sums over the low modes and over the others (docs/engine/certificate.md, section 4).
+/// time: sums over the low modes and over the others (docs/engine/certificate.md, section 4); add_kicks().
 struct UnitKick {
     std::size_t modes = 0;   ///< that the sums cover; 0: not known since the last refresh
     double low_speed = 0;    ///< sum kick over the low modes [1/(kg m)]
-    double low_detour = 0;   ///< sum kick detour [s/(kg m)]
-    double high_speed = 0;   ///< of the others likewise [1/(kg m)]
-    double high_extent = 0;  ///< sum kick extent [s/(kg m)]
-    double high_detour = 0;  ///< [s/(kg m)]
+    double low_detour = 0;   ///< sum kick detour over the low modes [s/(kg m)]
+    double high_speed = 0;   ///< sum kick over the other modes [1/(kg m)]
+    double high_extent = 0;  ///< sum kick extent over the other modes [s/(kg m)]
+    double high_detour = 0;  ///< sum kick detour over the other modes [s/(kg m)]
 };
 
-/// Bounds that hold until an impulse, a force or an outside change of state (docs/engine/certificate.md).
-struct CertificateState {
-    AlignedVector<double> speed;  ///< scratch over modes: r_k, bound of |v_k|
-    AlignedVector<double>
-        detour;  ///< scratch over modes: how far q_k may leave the straight line between frame boundaries
-    AlignedVector<double> extent;  ///< scratch over modes: bound of |q_k|
-    // per group of contacts
-    std::vector<double> group_speed;   ///< R: bound of the gaps' rate [m/s]
-    std::vector<double> group_detour;  ///< D: how far a gap dips below both its values at a frame's ends [m]
-    std::vector<double>
-        group_clearance;  ///< lower bound of the gaps for as long as the string flies freely [m]
-    std::vector<std::uint8_t> group_has_detour, group_has_clearance,
-        group_has_lookout;               ///< known since the last refresh
-    std::vector<double> group_odometer;  ///< integral of R since the last refresh [m]
-    std::vector<double>
-        group_push;  ///< what the frame's impulses so far may have moved the gaps until its end [m]
-    std::vector<double> group_margin;  ///< smallest margin of the group's contacts this frame [m]
-    // per contact
-    std::vector<double> open_until;     ///< odometer reading up to which the gap is certainly open [m]
-    std::vector<double> margin;         ///< this frame's lower bound of the gap without impulses [m]
-    std::vector<double> frame_gap;      ///< S q - b at the coming frame's start, where frame_gap_at says so
+/// Bounds of modes and gaps, which hold until an impulse, a force or an outside change of state
+/// (docs/engine/certificate.md). Validity says which of them are known.
+struct GapBounds {
+    // -- per mode; refresh_bounds()
+    AlignedVector<double> speed;   ///< r_k, bound of |v_k|
+    AlignedVector<double> detour;  ///< how far q_k may leave the straight line between frame boundaries
+    AlignedVector<double> extent;  ///< bound of |q_k|
+    // -- per group of contacts
+    std::vector<double> group_speed;   ///< R: bound of the gaps' rate [m/s]; refresh_bounds()
+    std::vector<double> group_detour;  ///< D: how far a gap dips below both its values at a frame's ends [m];
+                                       ///< complete_detours()
+    std::vector<double> group_clearance;  ///< lower bound of the gaps for as long as the string flies freely
+                                          ///< [m]; complete_clearances()
+    std::vector<double> group_odometer;   ///< integral of R since the last refresh [m]; plan_free_frames(),
+                                          ///< advance_bounds()
+    std::vector<double> group_push;    ///< what the frame's impulses so far may have moved the gaps until its
+                                       ///< end [m]; charge_impulses(), near frames
+    std::vector<double> group_margin;  ///< smallest margin of the group's contacts that are not near [m];
+                                       ///< choose_near_contacts(), admit_pushed_contacts()
+    // -- per contact
+    std::vector<double> open_until;     ///< odometer reading up to which the gap is certainly open [m]; the
+                                        ///< functions of gap_certificate.h, forecast.h and short_frame.h
+    std::vector<double> margin;         ///< this frame's lower bound of the gap without impulses [m];
+                                        ///< choose_near_contacts(), the forecast
+    std::vector<double> frame_gap;      ///< S q - b at the start of frame Validity::frame_gap_at;
+                                        ///< choose_near_contacts(), note_stepped_gaps(), note_short_frame()
     std::vector<double> frame_end_gap;  ///< scratch: the same at the frame's end in free flight
-    std::vector<std::uint64_t> frame_gap_at;  ///< frame at whose start frame_gap holds
-    std::vector<std::uint64_t> certified_at;  ///< frame for which the lookout certified it, with its margin
-    LookoutState lookout;
-    std::vector<std::uint32_t> expired;  ///< scratch: contacts whose certificate has run out
-    std::vector<std::uint32_t> expired_groups, missing_groups;  ///< scratch
-    std::size_t missing_count = 0;
-    std::uint64_t free_frames = 0;  ///< coming frames in which no contact can close, already in the odometers
-    std::uint64_t age = 0;          ///< frames since the last refresh
-    bool outdated = true;           ///< an impulse has raised the bounds
-    bool struck = false;            ///< the last frame had impulses: the coming one most likely has
-    std::uint32_t presumed_near = 0;  ///< coming short frames under forces that are solved without looking
-    std::uint32_t presumption = 0;    ///< how many there were after the last look, 0 if it was in order
-    bool direct = false;   ///< the coming frame looks at all gaps at both its ends; odometers stand still
-    bool excited = false;  ///< the last refresh was made under excitation
-    /// The string has too little energy to reach any contact for as long as only passive forces act.
-    bool clear = false;
-    bool clear_limits_outdated = true;
-    double clear_energy_J = 0;  ///< below this it is clear,
-    double clear_force_N = 0;   ///< under passive forces of this strength together
+    // -- of the forces
     KickState kicks;
     UnitKick unit_kick;
+    // -- over the string's past; refresh_bounds()
     double strongest_speed = 0;   ///< largest r_k ever [m^(3/2)/s]
     double strongest_extent = 0;  ///< largest |q_k| bound ever
 };
 
-/// Scratch of a frame solved in contact space; contacts x steps, rows response_stride apart.
+/// Which bounds are known, and since when.
+struct Validity {
+    bool outdated = true;   ///< an impulse has raised the bounds, or they were forgotten
+    bool excited = false;   ///< the last refresh was made under excitation
+    std::uint64_t age = 0;  ///< frames since the last refresh, the planned ones included
+    /// The coming frame tests all gaps at both its ends; odometers stand still. refresh_bounds()
+    bool direct = false;
+    /// Odometers and readings hold at the start of this frame. It is later than StringState::frame while
+    /// planned frames are left; planned_frames() says how many.
+    std::uint64_t odometers_at_frame = 0;
+    // -- per group: known since the last refresh
+    std::vector<std::uint8_t> group_has_detour;     ///< GapBounds::group_detour
+    std::vector<std::uint8_t> group_has_clearance;  ///< GapBounds::group_clearance
+    std::vector<std::uint8_t> group_has_forecast;   ///< both bounds of ForecastState
+    // -- per contact
+    std::vector<std::uint64_t> frame_gap_at;  ///< frame at whose start GapBounds::frame_gap holds
+    std::vector<std::uint64_t> certified_at;  ///< frame for which the forecast certified it, with its margin
+};
+
+/// Frames under forces that are solved without a contact test, because tests have failed (exponential
+/// back-off); cross_frame().
+struct Backoff {
+    std::uint32_t granted = 0;  ///< by the last failed test; 0 after a test that succeeded
+    std::uint32_t left = 0;     ///< of them
+};
+
+/// The string has too little energy to reach any contact for as long as only passive forces act;
+/// refresh_bounds().
+struct ClearState {
+    bool valid = false;         ///< it is so
+    bool limits_valid = false;  ///< the limits hold for the obstacles' present heights
+    double energy_J = 0;        ///< limit of the string's energy
+    double force_N = 0;         ///< limit of the strength of all passive forces together
+};
+
+/// The low modes advanced into the future, and the gaps they predict; forecast.h writes it.
+struct ForecastState {
+    // -- bounds
+    std::vector<double> group_detour;     ///< how far the low modes let a gap dip below both its ends [m]
+    std::vector<double> group_overtones;  ///< what all other modes can displace a gap by [m]
+    std::vector<double> gap;              ///< per contact: of the low modes, at the frame's start [m]
+    std::vector<std::uint64_t> gap_at;    ///< frame at whose start `gap` holds, under excitation
+    // -- scratch
+    AlignedVector<double> displacement, velocity;  ///< over the low modes
+    std::vector<double> gap_end;                   ///< per contact: `gap` at the frame's end [m]
+    IndexList watched;                             ///< contacts that the odometer does not certify far enough
+    IndexList unknown;                             ///< watched contacts whose `gap` is not known
+};
+
+/// The broad phase: which contacts can close (docs/engine/certificate.md).
+struct CertificateState {
+    // -- state
+    bool struck = false;  ///< the last frame had impulses: the coming one most likely has
+    Backoff backoff;
+    // -- bounds
+    GapBounds bounds;
+    Validity validity;
+    ClearState clear;
+    ForecastState forecast;
+    // -- scratch
+    IndexList expired;         ///< contacts whose certificate has run out
+    IndexList expired_groups;  ///< groups of such contacts
+    IndexList missing_groups;  ///< groups whose bound is computed for the first time since the last refresh
+    IndexList unknown_gaps;    ///< contacts whose GapBounds::frame_gap is computed
+};
+
+/// All that solving a frame once more with more contacts starts from.
+struct FrameStart {
+    ContactGaps gaps;
+    Counters counters;
+};
+
+/// Scratch of a frame solved in contact space, near_frame.h; contacts x steps, rows response_stride apart.
 struct NearState {
     AlignedVector<double>
         rates_free;  ///< S v of free flight at each step, in the order of ContactState::near
     AlignedVector<double>
-        rates;  ///< the same with the impulses so far; by step responses step by step, contact_stride apart
-    AlignedVector<double> impulses;     ///< lambda at each step, in the order of `struck`
-    std::vector<std::uint32_t> struck;  ///< contacts with impulses in the frame; `struck_count` are valid
-    std::size_t struck_count = 0;
+        rates;  ///< S v with the impulses so far; by step responses step by step, contact_stride apart
+    AlignedVector<double> impulses;        ///< lambda at each step, in the order of `struck`
+    IndexList struck;                      ///< contacts with impulses in the frame
+    std::size_t first_impulse = 0;         ///< step of the frame's first impulse
     AlignedVector<double> force_impulses;  ///< h and h n at each step n, for the held force and its ramp
     AlignedVector<double> force_rows;      ///< (w/mu) times the held force and its ramp, modes apart
-    std::size_t first_impulse = 0;         ///< step of the frame's first impulse
-    AlignedVector<double> lanes;
-    AlignedVector<double> displacement, velocity;    ///< over modes
-    AlignedVector<double> gap, gap_before, impulse;  ///< at the frame's start
-    double left_open = 0;                            ///< the same
-    std::vector<const double*> rows;
-    Counters counters;
+    AlignedVector<double> lanes;           ///< of kernels::run_modes()
+    AlignedVector<double> displacement, velocity;  ///< over modes, of kernels::run_modes()
+    std::vector<const double*> rows;               ///< of kernels::run_modes()
+    FrameStart start;                              ///< solve_near_frame()
 };
 
-/// The Delassus operator with some contacts active, the others' gaps open: what sweep() of
-/// contact_kernels.cpp makes of it.
+/// The Delassus operator with some contacts active, the others' gaps open: what sweep() of pivot_table_inl.h
+/// makes of it.
 struct PivotTable {
-    const double* of = nullptr;         ///< the operator, or null if the table is not made
-    AlignedVector<double> values;       ///< contacts x contact_stride
-    AlignedVector<double> sign;         ///< 1: active, -1: not; over contacts
-    AlignedVector<double> scale;        ///< makes gaps of the solution: A_cc of active contacts, else 1
-    AlignedVector<double> solution;     ///< scratch: impulses of active contacts, gaps above target of others
-    std::vector<std::uint32_t> active;  ///< `active_count` are valid
-    std::vector<std::uint32_t> kept;    ///< scratch
-    std::size_t active_count = 0;
-    std::size_t pivots = 0;  ///< since the table was made
+    const double* of = nullptr;      ///< the operator, or null if the table is not made
+    AlignedVector<double> values;    ///< contacts x contact_stride
+    AlignedVector<double> sign;      ///< 1: active, -1: not; over contacts
+    AlignedVector<double> scale;     ///< makes gaps of the solution: A_cc of active contacts, else 1
+    IndexList active;                ///< the active set, in the order in which contacts entered it
+    std::size_t pivots = 0;          ///< since the table was made
+    AlignedVector<double> solution;  ///< scratch: impulses of active contacts, gaps above target of others
+    IndexList kept;                  ///< scratch: the active set while the table is made anew
 };
 
 /// Frames of few steps over few contacts, short_frame.h.
 struct ShortFrameState {
-    AlignedVector<double> velocities;   ///< scratch: v of free flight at each step, steps x stride
-    AlignedVector<double> rates;        ///< scratch: S v at each step, steps x contact_stride
-    AlignedVector<double> impulses;     ///< lambda at each step, steps x contact_stride
-    std::vector<std::uint32_t> struck;  ///< contacts with impulses in the frame; `struck_count` are valid
-    std::size_t struck_count = 0;
+    // -- state
+    std::uint64_t gaps_at = unknown_frame;  ///< frame at whose start contact.gap and gap_before hold for all
+    PivotTable table;
     /// What StringModel::step_response is to a model that has none because its tension changes: rows of the
     /// contacts in `response_known` hold until forget_responses(), short_frame.h.
     AlignedVector<double> step_response;
-    std::vector<std::uint8_t> response_known;
-    std::uint64_t gaps_at = 0;  ///< frame at whose start contact.gap and gap_before hold for all contacts
-    PivotTable table;
+    std::vector<std::uint8_t> response_known;  ///< kernels::find_response(), forget_responses()
+    // -- scratch of a frame
+    AlignedVector<double> velocities;  ///< v of free flight at each step, steps x stride
+    AlignedVector<double> rates;       ///< S v at each step, steps x contact_stride
+    AlignedVector<double> impulses;    ///< lambda at each step, steps x contact_stride
+    IndexList struck;                  ///< contacts with impulses in the frame
 };
 
 /// Forces of the player: sums over points of F phi_k(x), so that any number of them is two rows over modes.
@@ -220,25 +281,29 @@ struct ExcitationState {
 };
 
 struct StringState {
-    AlignedVector<double> displacement;                          ///< q
-    AlignedVector<double> velocity;                              ///< backward velocity v
-    AlignedVector<double> displacement_before, velocity_before;  ///< scratch: one step earlier
-    AlignedVector<double> displacement_flown, velocity_flown;    ///< scratch: the frame's end in free flight
-    std::size_t active_modes = 0;  ///< modes in the sums (padded); those behind are at rest
-    std::uint64_t frame = 0;       ///< frames since make_state()
-    std::size_t steps_left = 0;    ///< of the current frame, including the current step
-    bool asleep = false;
-    bool leaves_obstacles = false;  ///< see leave_obstacles()
-    CertificateState certificate;
-    NearState near_frame;
-    ShortFrameState short_frame;
+    // -- state
+    AlignedVector<double> displacement;  ///< q; each frame or step
+    AlignedVector<double> velocity;      ///< backward velocity v; each frame or step
+    std::size_t active_modes = 0;        ///< modes in the sums (padded); those behind are at rest
+    std::uint64_t frame = 0;             ///< frames since make_state()
+    std::size_t steps_left = 0;          ///< of the current frame, including the current step
+    bool asleep = false;                 ///< refresh_bounds(), notice_change()
+    bool leaves_obstacles = false;       ///< leave_obstacles(), reset()
     Skipping skipping;
+    Metering metering = Metering::Off;
     ExcitationState excitation;
     ContactState contact;
     LcpWorkspace lcp;
+    ShortFrameState short_frame;
+    // -- bounds
+    CertificateState certificate;
+    // -- scratch
+    AlignedVector<double> displacement_before, velocity_before;  ///< one step earlier; step()
+    AlignedVector<double> displacement_flown, velocity_flown;    ///< the frame's end in free flight
+    NearState near_frame;
+    // -- counters
     EnergyMeter energy;
     Counters counters;
-    Metering metering = Metering::Off;
 };
 
 struct SceneState {

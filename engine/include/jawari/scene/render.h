@@ -12,7 +12,8 @@
 
 namespace jawari {
 
-/// One contact step of one string: free prediction, gaps, candidates, impulses, update.
+/// One contact step of one string with all its contacts: free prediction, gaps, candidates, impulses, update.
+/// May be mixed with the functions below: the first step after a frame computes all gaps from the modes.
 void step(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
 /// One output frame of one string: model.steps_per_frame contact steps, or what state.skipping allows instead

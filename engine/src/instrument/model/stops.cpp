@@ -1,4 +1,5 @@
 #include "instrument/model/stops.h"
+#include "base/assert.h"
 #include "base/square.h"
 
 #include <cmath>
@@ -219,8 +220,10 @@ double note_frequency(const InstrumentDescription& instrument, const InstrumentS
 
 StringDescription stopped_string(const InstrumentDescription& instrument, std::size_t index,
                                  std::size_t fret) {
+    JAWARI_ASSERT(index < instrument.strings.size());
     const InstrumentStringDescription& string = instrument.strings[index];
     const double frequency_hz = note_frequency(instrument, string, fret);
+    JAWARI_ASSERT(frequency_hz > 0);
     StringDescription stopped;
     stopped.name = string.name;
     stopped.length_m = speaking_length(instrument, string, fret);

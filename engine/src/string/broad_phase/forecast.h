@@ -1,11 +1,11 @@
-// The far-sighted part of the certificate: the low modes of the coming frames exactly, all others by the
-// bound of their displacement (docs/engine/certificate.md, section 3).
+// Forecast: the low modes are advanced exactly into the coming frames, and the displacement of all other
+// modes is bounded. The gaps that follow certify contacts several frames ahead (docs/engine/certificate.md,
+// section 3).
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "jawari/detail/string_model.h"
@@ -14,21 +14,19 @@
 
 namespace jawari {
 
-/// Of the `watched` contacts in state.certificate.lookout, how many coming frames, at most `frames`, none of
-/// them can close in. Their readings then hold at the end of these frames, when the odometers have moved on
-/// by them. If it is none, the contacts that cannot close in the coming frame have their margin, marked by
-/// certified_at.
-std::size_t look_out(const StringModel& model, StringState& state, std::size_t watched,
-                     std::size_t frames) JAWARI_REALTIME;
+/// Returns the number of coming frames, at most `frames`, in which none of forecast.watched can close. Their
+/// readings then hold at the end of these frames, when the odometers have moved on by them. If the number is
+/// 0, the contacts that cannot close in the coming frame have their margin and are marked by certified_at.
+std::size_t forecast_frames(const StringModel& model, StringState& state, std::size_t frames) JAWARI_REALTIME;
 
-/// The same for the coming frame alone when it has been flown already, forces included. Returns how many of
-/// the watched contacts may close; these are state.certificate.expired.
-std::size_t look_at_flown(const StringModel& model, StringState& state, std::size_t watched) JAWARI_REALTIME;
+/// Tests forecast.watched in the coming frame alone, which has been flown already, forces included. The
+/// contacts that may close become certificate.expired.
+void forecast_flown_frame(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
-/// The low modes' gaps do not go on into the coming frame: an impulse has acted.
+/// After an impulse: the gaps of the low modes at the coming frame's start are unknown.
 inline void forget_low_gaps(StringState& state) JAWARI_REALTIME {
-    std::vector<std::uint64_t>& known = state.certificate.lookout.gap_at;
-    std::fill(known.begin(), known.end(), std::numeric_limits<std::uint64_t>::max());
+    std::vector<std::uint64_t>& known = state.certificate.forecast.gap_at;
+    std::fill(known.begin(), known.end(), unknown_frame);
 }
 
 }  // namespace jawari

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/assert.h"
 #include "string/contact/contact_stage.h"
 #include "string/kernels/mode_bounds.h"
 #include "string/kernels/mode_sums.h"
@@ -12,17 +13,17 @@
 namespace jawari {
 namespace {
 
-/// In free flight bounds only become tighter when computed anew; this often is enough.
+/// Frames between refreshes in free flight, where the bounds stay valid and a refresh only tightens them.
 constexpr std::uint64_t refresh_period = 32;
-/// Under excitation they grow with every frame.
+/// Frames between refreshes under excitation, where the bounds grow with every frame.
 constexpr std::uint64_t excited_refresh_period = 8;
 
-/// Of the way to the nearest contact, what passive forces may bend the string by within a frame.
+/// The share of the way to the nearest contact that passive forces may bend the string by within a frame.
 constexpr double share_of_forces = 0.1;
 
-/// Modes behind the last one that matters are put to rest and leave the sums.
+/// Puts the modes behind the last one that matters to rest; they leave the sums.
 void drop_weak_modes(const StringModel& model, StringState& state, const kernels::LargestBounds& largest) {
-    const CertificateState& bounds = state.certificate;
+    const GapBounds& bounds = state.certificate.bounds;
     std::size_t active = state.active_modes;
     while (active > state.excitation.modes && bounds.speed[active - 1] <= lazy_threshold * largest.speed &&
            bounds.extent[active - 1] <= lazy_threshold * largest.extent) {
@@ -38,12 +39,12 @@ void drop_weak_modes(const StringModel& model, StringState& state, const kernels
 }
 
 bool has_faded(const StringState& state, const kernels::LargestBounds& largest) {
-    const CertificateState& bounds = state.certificate;
+    const GapBounds& bounds = state.certificate.bounds;
     return largest.speed <= sleep_threshold * bounds.strongest_speed &&
            largest.extent <= sleep_threshold * bounds.strongest_extent;
 }
 
-/// At rest, until a force or a moving obstacle wakes the string.
+/// Puts the string to rest until a force or a moving obstacle wakes it.
 void fall_asleep(StringState& state) {
     for (auto* array : {&state.displacement, &state.velocity, &state.velocity_before,
                         &state.displacement_flown, &state.velocity_flown}) {
@@ -58,13 +59,13 @@ void fall_asleep(StringState& state) {
 bool stays_passive(const StringState& state) {
     const ExcitationState& excitation = state.excitation;
     return !excitation.active ||
-           (excitation.passive && excitation.strength_N <= state.certificate.clear_force_N);
+           (excitation.passive && excitation.strength_N <= state.certificate.clear.force_N);
 }
 
-/// From the obstacles' present heights.
+/// Computes the limits of ClearState from the obstacles' present heights.
 void set_clear_limits(const StringModel& model, StringState& state) {
-    CertificateState& bounds = state.certificate;
-    bounds.clear_limits_outdated = false;
+    ClearState& clear = state.certificate.clear;
+    clear.limits_valid = true;
     double least_height = std::numeric_limits<double>::infinity();
     double least_root = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < model.contact_count; ++c) {
@@ -73,33 +74,35 @@ void set_clear_limits(const StringModel& model, StringState& state) {
         least_root = std::min(least_root, below / model.certificate.reach[c]);
     }
     const double root = (1 - share_of_forces) * least_root / (bound_safety * model.certificate.reach_growth);
-    bounds.clear_energy_J = root * root;
-    bounds.clear_force_N = share_of_forces * least_height / model.certificate.force_reach;
+    clear.energy_J = root * root;
+    clear.force_N = share_of_forces * least_height / model.certificate.force_reach;
 }
 
 bool is_clear(const StringModel& model, StringState& state) {
     if (state.leaves_obstacles) return state.skipping.flight;
-    CertificateState& bounds = state.certificate;
+    const ClearState& clear = state.certificate.clear;
     const bool known = model.certificate.reach.size() == model.contact_count && lookahead(model) == 0;
     if (!known || !state.skipping.certificate || !state.skipping.flight) return false;
-    if (bounds.clear_limits_outdated) set_clear_limits(model, state);
-    if (!(bounds.clear_energy_J > 0) || !stays_passive(state)) return false;
+    if (!clear.limits_valid) set_clear_limits(model, state);
+    if (!(clear.energy_J > 0) || !stays_passive(state)) return false;
     return kernels::energy(state.active_modes, model.kinetic.data(), model.potential.data(), model.step_s / 2,
-                           state.displacement.data(), state.velocity.data()) < bounds.clear_energy_J;
+                           state.displacement.data(), state.velocity.data()) < clear.energy_J;
 }
 
-/// While few contacts strike, their gaps at both ends of each frame cost less than odometers that serve once.
-bool looks_directly(const StringModel& model, const StringState& state) {
+/// Whether all gaps are tested at both ends of the frame. While few contacts strike, that costs less than
+/// odometers that serve once.
+bool tests_directly(const StringModel& model, const StringState& state) {
     return state.certificate.struck && model.contact_count <= contacts_with_own_bounds &&
            !looks_ahead(model.law);
 }
 
-/// speed_g = sum_k envelope_g r_k, or nothing where odometers are not needed. Odometers start again from
-/// zero; what the readings claimed stays claimed.
+/// speed_g = sum_k envelope_g r_k, or 0 where odometers are not needed. Resets the odometers and shifts every
+/// open_until by the same amount, so certificates already issued stay valid.
 void set_group_speeds(const StringModel& model, StringState& state) {
-    CertificateState& bounds = state.certificate;
+    GapBounds& bounds = state.certificate.bounds;
+    Validity& validity = state.certificate.validity;
     const std::size_t groups = group_count(model);
-    if (bounds.direct) {
+    if (validity.direct) {
         std::fill(bounds.group_speed.begin(), bounds.group_speed.end(), 0.0);
     } else {
         kernels::row_products(groups, state.active_modes, model.stride, model.certificate.envelope.data(),
@@ -107,36 +110,35 @@ void set_group_speeds(const StringModel& model, StringState& state) {
     }
     for (std::size_t g = 0; g < groups; ++g) {
         bounds.group_speed[g] *= bound_safety;
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
-             ++c) {
-            bounds.open_until[c] -= bounds.group_odometer[g];
-        }
+        for (const std::size_t c : contacts_of(model, g)) bounds.open_until[c] -= bounds.group_odometer[g];
         bounds.group_odometer[g] = 0;
         bounds.group_clearance[g] = -std::numeric_limits<double>::infinity();
     }
-    for (auto* known : {&bounds.group_has_detour, &bounds.group_has_clearance, &bounds.group_has_lookout})
+    for (auto* known :
+         {&validity.group_has_detour, &validity.group_has_clearance, &validity.group_has_forecast}) {
         std::fill(known->begin(), known->end(), std::uint8_t{0});
+    }
 }
 
-/// out[g] <- sum_k envelope_g x_k for the groups in `list` that are not flagged yet.
-void complete(const StringModel& model, StringState& state, std::span<const std::uint32_t> list,
-              const AlignedVector<double>& x, std::vector<std::uint8_t>& known, std::vector<double>& out) {
-    std::vector<std::uint32_t>& missing = state.certificate.missing_groups;
-    std::size_t count = 0;
+/// out[g] <- sum_k envelope_g x_k for the groups in `list` that are not flagged yet; these are then
+/// missing_groups.
+const IndexList& complete(const StringModel& model, StringState& state, const IndexList& list,
+                          const AlignedVector<double>& x, std::vector<std::uint8_t>& known,
+                          std::vector<double>& out) {
+    IndexList& missing = state.certificate.missing_groups;
+    missing.clear();
     for (const auto g : list) {
-        if (known[g] == 0) missing[count++] = g;
+        if (known[g] == 0) missing.push(g);
         known[g] = 1;
     }
-    kernels::indexed_row_products(missing.data(), count, state.active_modes, model.stride,
+    kernels::indexed_row_products(missing.data(), missing.size(), state.active_modes, model.stride,
                                   model.certificate.envelope.data(), x.data(), out.data());
-    state.certificate.missing_count = count;
+    return missing;
 }
 
 double highest_obstacle(const StringModel& model, const StringState& state, std::size_t g) {
     double highest = -std::numeric_limits<double>::infinity();
-    for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1]; ++c) {
-        highest = std::max(highest, state.contact.height[c]);
-    }
+    for (const std::size_t c : contacts_of(model, g)) highest = std::max(highest, state.contact.height[c]);
     return highest;
 }
 
@@ -144,7 +146,7 @@ struct ForceBoundsOfParts {
     kernels::ForceBounds low, high;
 };
 
-/// From every mode's own force.
+/// Bounds from the force on each mode.
 ForceBoundsOfParts bounds_by_mode(const StringModel& model, const ExcitationState& excitation) {
     const std::size_t low = std::min(low_modes(model), excitation.modes);
     const auto first = static_cast<double>(excitation.elapsed);
@@ -156,10 +158,10 @@ ForceBoundsOfParts bounds_by_mode(const StringModel& model, const ExcitationStat
     return {bounds_of(0, low), bounds_of(low, excitation.modes)};
 }
 
-/// From the strength of held point forces: no mode's force exceeds sqrt(2/L) times it.
+/// Bounds from the strength of held point forces: no mode's force exceeds sqrt(2/L) times it.
 ForceBoundsOfParts bounds_by_strength(const StringModel& model, StringState& state) {
     const std::size_t modes = state.excitation.modes;
-    UnitKick& unit = state.certificate.unit_kick;
+    UnitKick& unit = state.certificate.bounds.unit_kick;
     if (unit.modes != modes) {
         const std::size_t low = std::min(low_modes(model), modes);
         const kernels::ForceBounds of_low = kernels::unit_force_bounds(0, low, model.certificate);
@@ -179,18 +181,20 @@ ForceBoundsOfParts bounds_by_strength(const StringModel& model, StringState& sta
 }  // namespace
 
 bool needs_refresh(const StringState& state) JAWARI_REALTIME {
-    const CertificateState& bounds = state.certificate;
-    if (bounds.clear) return bounds.outdated || bounds.age >= refresh_period || !stays_passive(state);
-    const std::uint64_t period = bounds.excited ? excited_refresh_period : refresh_period;
-    return bounds.outdated || bounds.age >= period || bounds.excited != is_excited(state);
+    const Validity& validity = state.certificate.validity;
+    if (validity.outdated) return true;
+    if (state.certificate.clear.valid) return validity.age >= refresh_period || !stays_passive(state);
+    const std::uint64_t period = validity.excited ? excited_refresh_period : refresh_period;
+    return validity.age >= period || validity.excited != is_excited(state);
 }
 
 std::uint64_t frames_until_refresh(const StringState& state) JAWARI_REALTIME {
-    return needs_refresh(state) ? 0 : refresh_period - state.certificate.age;
+    return needs_refresh(state) ? 0 : refresh_period - state.certificate.validity.age;
 }
 
 void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    CertificateState& bounds = state.certificate;
+    GapBounds& bounds = state.certificate.bounds;
+    Validity& validity = state.certificate.validity;
     const kernels::LargestBounds largest =
         kernels::mode_bounds(state.active_modes, model, state.displacement.data(), state.velocity.data(),
                              bounds.speed.data(), bounds.extent.data(), bounds.detour.data());
@@ -205,25 +209,27 @@ void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIM
         }
         if (state.skipping.lazy) drop_weak_modes(model, state, largest);
     }
-    bounds.clear = is_clear(model, state);
-    bounds.direct = !bounds.clear && looks_directly(model, state);
-    if (bounds.clear) {
+    const bool clear = is_clear(model, state);
+    state.certificate.clear.valid = clear;
+    validity.direct = !clear && tests_directly(model, state);
+    if (clear) {
         std::fill(bounds.open_until.begin(), bounds.open_until.end(),
                   -std::numeric_limits<double>::infinity());
     } else {
         set_group_speeds(model, state);
     }
-    bounds.age = 0;
-    bounds.outdated = false;
-    bounds.excited = is_excited(state);
+    validity.age = 0;
+    validity.outdated = false;
+    validity.excited = is_excited(state);
     bounds.kicks = {};
     bounds.unit_kick.modes = 0;
 }
 
 void wake_excited_modes(StringState& state) JAWARI_REALTIME {
+    JAWARI_ASSERT(state.excitation.modes <= state.displacement.size());
     const std::size_t excited = state.excitation.modes;
     if (excited <= state.active_modes) return;
-    CertificateState& bounds = state.certificate;
+    GapBounds& bounds = state.certificate.bounds;
     for (auto* array : {&bounds.speed, &bounds.extent, &bounds.detour}) {
         std::fill(array->begin() + static_cast<std::ptrdiff_t>(state.active_modes),
                   array->begin() + static_cast<std::ptrdiff_t>(excited), 0.0);
@@ -232,9 +238,10 @@ void wake_excited_modes(StringState& state) JAWARI_REALTIME {
 }
 
 void add_kicks(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    JAWARI_ASSERT(is_excited(state));
     const ForceBoundsOfParts force =
         state.excitation.passive ? bounds_by_strength(model, state) : bounds_by_mode(model, state.excitation);
-    KickState& kicks = state.certificate.kicks;
+    KickState& kicks = state.certificate.bounds.kicks;
     const double frame_s = frame_length(model);
     const double largest_shape = bound_safety * std::sqrt(2 / model.length_m);
     const double scale = largest_shape * frame_s;
@@ -248,22 +255,22 @@ void add_kicks(const StringModel& model, StringState& state) JAWARI_REALTIME {
 }
 
 void complete_clearances(const StringModel& model, StringState& state,
-                         std::span<const std::uint32_t> groups) JAWARI_REALTIME {
-    CertificateState& bounds = state.certificate;
-    complete(model, state, groups, bounds.extent, bounds.group_has_clearance, bounds.group_clearance);
-    for (std::size_t i = 0; i < bounds.missing_count; ++i) {
-        const auto g = bounds.missing_groups[i];
-        bounds.group_clearance[g] =
-            -bound_safety * bounds.group_clearance[g] - highest_obstacle(model, state, g);
+                         const IndexList& groups) JAWARI_REALTIME {
+    GapBounds& bounds = state.certificate.bounds;
+    std::vector<double>& clearance = bounds.group_clearance;
+    const IndexList& missing = complete(model, state, groups, bounds.extent,
+                                        state.certificate.validity.group_has_clearance, clearance);
+    for (const auto g : missing) {
+        const double reach = bound_safety * clearance[g];  // of the string, from complete()
+        clearance[g] = -reach - highest_obstacle(model, state, g);
     }
 }
 
-void complete_detours(const StringModel& model, StringState& state,
-                      std::span<const std::uint32_t> groups) JAWARI_REALTIME {
-    CertificateState& bounds = state.certificate;
-    complete(model, state, groups, bounds.detour, bounds.group_has_detour, bounds.group_detour);
-    for (std::size_t i = 0; i < bounds.missing_count; ++i)
-        bounds.group_detour[bounds.missing_groups[i]] *= bound_safety;
+void complete_detours(const StringModel& model, StringState& state, const IndexList& groups) JAWARI_REALTIME {
+    GapBounds& bounds = state.certificate.bounds;
+    const IndexList& missing = complete(model, state, groups, bounds.detour,
+                                        state.certificate.validity.group_has_detour, bounds.group_detour);
+    for (const auto g : missing) bounds.group_detour[g] *= bound_safety;
 }
 
 }  // namespace jawari

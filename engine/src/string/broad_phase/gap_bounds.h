@@ -1,11 +1,11 @@
-// How fast and how far a string can move from its present state on: the numbers that the certificate rests on
-// (docs/engine/certificate.md, sections 1, 2 and 4).
+// Bounds of how fast and how far modes and gaps can move from the present state on. The broad phase
+// (gap_certificate.h) certifies gaps with them (docs/engine/certificate.md, sections 1, 2 and 4).
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
-#include <span>
 
+#include "base/index_range.h"
 #include "jawari/detail/string_model.h"
 #include "jawari/detail/string_state.h"
 #include "jawari/realtime.h"
@@ -17,7 +17,7 @@ namespace jawari {
 /// Bounds are widened by this share, far above the rounding of the sums that make them.
 inline constexpr double bound_safety = 1 + 1e-9;
 
-/// An output frame [s].
+/// Length of an output frame [s].
 inline double frame_length(const StringModel& model) {
     return model.step_s * static_cast<double>(model.steps_per_frame);
 }
@@ -30,14 +30,14 @@ inline double lookahead(const StringModel& model) {
 /// Up to this many contacts each has bounds of its own; more share them in groups of neighbours.
 inline constexpr std::size_t contacts_with_own_bounds = 64;
 
-/// Modes that the lookout flies ahead.
-inline constexpr std::size_t lookout_modes = 64;
+/// Modes that the forecast advances into the future.
+inline constexpr std::size_t forecast_modes = 64;
 
 /// Frames that are planned at a time.
 inline constexpr std::uint64_t longest_plan = 16;
 
 inline std::size_t low_modes(const StringModel& model) {
-    return std::min(lookout_modes, model.stride);
+    return std::min(forecast_modes, model.stride);
 }
 
 inline std::size_t group_of(const StringModel& model, std::size_t contact) {
@@ -49,9 +49,20 @@ inline std::size_t group_count(const StringModel& model) {
     return model.certificate.group_begin.size() - 1;
 }
 
+/// The contacts of a group.
+inline IndexRange contacts_of(const StringModel& model, std::size_t group) {
+    return {model.certificate.group_begin[group], model.certificate.group_begin[group + 1]};
+}
+
 /// Bound of the rate of a group's gaps over the coming frame [m/s].
 inline double gap_speed(const StringState& state, std::size_t g) {
-    return state.certificate.group_speed[g] + state.certificate.kicks.speed;
+    return state.certificate.bounds.group_speed[g] + state.certificate.bounds.kicks.speed;
+}
+
+/// Coming frames in which no contact can close; the odometers already include them.
+inline std::uint64_t planned_frames(const StringState& state) {
+    const std::uint64_t held_at = state.certificate.validity.odometers_at_frame;
+    return held_at > state.frame ? held_at - state.frame : 0;
 }
 
 /// True if the bounds must be computed anew before the coming frame.
@@ -72,10 +83,9 @@ void add_kicks(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
 /// group_clearance of the groups listed, where it is not known since the last refresh.
 void complete_clearances(const StringModel& model, StringState& state,
-                         std::span<const std::uint32_t> groups) JAWARI_REALTIME;
+                         const IndexList& groups) JAWARI_REALTIME;
 
 /// group_detour of the groups listed, where it is not known since the last refresh.
-void complete_detours(const StringModel& model, StringState& state,
-                      std::span<const std::uint32_t> groups) JAWARI_REALTIME;
+void complete_detours(const StringModel& model, StringState& state, const IndexList& groups) JAWARI_REALTIME;
 
 }  // namespace jawari

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "base/assert.h"
 #include "string/broad_phase/forecast.h"
 #include "string/broad_phase/gap_bounds.h"
 #include "string/contact/contact_stage.h"
@@ -13,200 +13,190 @@
 namespace jawari {
 namespace {
 
-constexpr std::uint64_t unknown_frame = std::numeric_limits<std::uint64_t>::max();
-
 /// How far a group's gaps may move in the coming frame, the law's lookahead included.
 double frame_travel(const StringModel& model, double speed) {
     return speed * (frame_length(model) + lookahead(model));
 }
 
+/// Whether the clearance certifies a group for as long as the string flies freely.
 bool stays_clear(const StringModel& model, const StringState& state, std::size_t g) {
-    return !is_excited(state) &&
-           state.certificate.group_clearance[g] > lookahead(model) * state.certificate.group_speed[g];
+    const GapBounds& bounds = state.certificate.bounds;
+    return !is_excited(state) && bounds.group_clearance[g] > lookahead(model) * bounds.group_speed[g];
 }
 
-/// Contacts that neither their odometer nor their group's clearance certifies for `frames` coming frames. The
-/// clearances of groups whose odometers run out are completed.
-std::size_t find_watched(const StringModel& model, StringState& state, double frames) {
-    CertificateState& bounds = state.certificate;
-    std::size_t groups = 0;
+/// forecast.watched <- contacts that neither their odometer nor their group's clearance certifies for
+/// `frames` coming frames. The clearances of groups whose odometers run out are completed.
+void find_watched(const StringModel& model, StringState& state, double frames) {
+    const GapBounds& bounds = state.certificate.bounds;
     const auto limit_of = [&](std::size_t g) {
         return bounds.group_odometer[g] +
                gap_speed(state, g) * (frame_length(model) * frames + lookahead(model));
     };
+    IndexList& groups = state.certificate.expired_groups;
+    groups.clear();
     for (std::size_t g = 0; g < group_count(model); ++g) {
-        const auto begin = bounds.open_until.begin();
-        const auto first = begin + static_cast<std::ptrdiff_t>(model.certificate.group_begin[g]);
-        const auto last = begin + static_cast<std::ptrdiff_t>(model.certificate.group_begin[g + 1]);
-        if (!(*std::min_element(first, last) > limit_of(g)))
-            bounds.expired_groups[groups++] = static_cast<std::uint32_t>(g);
+        const IndexRange contacts = contacts_of(model, g);
+        const double* open_until = bounds.open_until.data();
+        if (!(*std::min_element(open_until + contacts.first, open_until + contacts.last) > limit_of(g)))
+            groups.push(g);
     }
-    complete_clearances(model, state, {bounds.expired_groups.data(), groups});
-    std::size_t watched = 0;
-    for (std::size_t i = 0; i < groups; ++i) {
-        const auto g = bounds.expired_groups[i];
+    complete_clearances(model, state, groups);
+    IndexList& watched = state.certificate.forecast.watched;
+    watched.clear();
+    for (const auto g : groups) {
         if (stays_clear(model, state, g)) continue;
         const double limit = limit_of(g);
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
-             ++c) {
-            if (!(bounds.open_until[c] > limit))
-                bounds.lookout.watched[watched++] = static_cast<std::uint32_t>(c);
+        for (const std::size_t c : contacts_of(model, g)) {
+            if (!(bounds.open_until[c] > limit)) watched.push(c);
         }
     }
-    return watched;
 }
 
-/// The same for the coming frame under excitation, when no clearance holds.
-std::size_t find_watched_under_force(const StringModel& model, StringState& state) {
-    CertificateState& bounds = state.certificate;
+/// forecast.watched <- contacts that their odometer does not certify for the coming frame under excitation,
+/// when no clearance holds.
+void find_watched_under_force(const StringModel& model, StringState& state) {
+    const GapBounds& bounds = state.certificate.bounds;
     const double time = frame_length(model) + lookahead(model);
     const double kick = bounds.kicks.speed;
     const double *open_until = bounds.open_until.data(), *odometer = bounds.group_odometer.data();
     const double* speed = bounds.group_speed.data();
-    std::uint32_t* watched = bounds.lookout.watched.data();
-    std::size_t count = 0;
+    IndexList& watched = state.certificate.forecast.watched;
+    watched.clear();
     for (std::size_t c = 0; c < model.contact_count; ++c) {
         const std::size_t g = group_of(model, c);
-        watched[count] = static_cast<std::uint32_t>(c);
-        count += open_until[c] > odometer[g] + (speed[g] + kick) * time ? 0 : 1;
+        watched.push_if(!(open_until[c] > odometer[g] + (speed[g] + kick) * time), c);
     }
-    return count;
 }
 
-/// Groups with a contact that its odometer does not certify for the coming frame.
-std::size_t find_expired_groups(const StringModel& model, StringState& state) {
-    CertificateState& bounds = state.certificate;
-    std::size_t expired = 0;
+/// expired_groups <- groups with a contact that its odometer does not certify for the coming frame.
+void find_expired_groups(const StringModel& model, StringState& state) {
+    const GapBounds& bounds = state.certificate.bounds;
+    IndexList& groups = state.certificate.expired_groups;
+    groups.clear();
     for (std::size_t g = 0; g < group_count(model); ++g) {
         const double limit = bounds.group_odometer[g] + frame_travel(model, gap_speed(state, g));
-        const std::size_t end = model.certificate.group_begin[g + 1];
-        for (std::size_t c = model.certificate.group_begin[g]; c < end; ++c) {
+        for (const std::size_t c : contacts_of(model, g)) {
             if (bounds.open_until[c] > limit) continue;
-            bounds.expired_groups[expired++] = static_cast<std::uint32_t>(g);
+            groups.push(g);
             break;
         }
     }
-    return expired;
 }
 
-/// Contacts that neither their odometer nor their group's clearance certifies.
-std::size_t find_expired(const StringModel& model, StringState& state) {
-    CertificateState& bounds = state.certificate;
-    const std::size_t groups = find_expired_groups(model, state);
-    complete_clearances(model, state, {bounds.expired_groups.data(), groups});
-    std::size_t expired = 0;
-    for (std::size_t i = 0; i < groups; ++i) {
-        const auto g = bounds.expired_groups[i];
+/// expired <- contacts that neither their odometer nor their group's clearance certifies.
+void find_expired(const StringModel& model, StringState& state) {
+    const GapBounds& bounds = state.certificate.bounds;
+    const IndexList& groups = state.certificate.expired_groups;
+    find_expired_groups(model, state);
+    complete_clearances(model, state, groups);
+    IndexList& expired = state.certificate.expired;
+    expired.clear();
+    for (const auto g : groups) {
         if (stays_clear(model, state, g)) continue;
         const double limit = bounds.group_odometer[g] + frame_travel(model, gap_speed(state, g));
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
-             ++c) {
-            if (bounds.open_until[c] > limit || bounds.certified_at[c] == state.frame) continue;
-            bounds.expired[expired++] = static_cast<std::uint32_t>(c);
+        for (const std::size_t c : contacts_of(model, g)) {
+            const bool certified = state.certificate.validity.certified_at[c] == state.frame;
+            if (!(bounds.open_until[c] > limit) && !certified) expired.push(c);
         }
     }
-    return expired;
 }
 
-/// frame_gap <- S q - b for those of the listed contacts where it is not known.
-void compute_frame_gaps(const StringModel& model, StringState& state, std::size_t expired) {
-    CertificateState& bounds = state.certificate;
-    std::size_t unknown = 0;
-    std::vector<std::uint32_t>& list = state.contact.candidates;  // free between frames
-    for (std::size_t i = 0; i < expired; ++i) {
-        const auto c = bounds.expired[i];
-        if (bounds.frame_gap_at[c] != state.frame) list[unknown++] = c;
+/// frame_gap <- S q - b for the expired contacts where it is not known.
+void compute_frame_gaps(const StringModel& model, StringState& state) {
+    GapBounds& bounds = state.certificate.bounds;
+    std::vector<std::uint64_t>& known_at = state.certificate.validity.frame_gap_at;
+    IndexList& unknown = state.certificate.unknown_gaps;
+    unknown.clear();
+    for (const auto c : state.certificate.expired) {
+        if (known_at[c] != state.frame) unknown.push(c);
     }
-    kernels::indexed_row_products(list.data(), unknown, state.active_modes, model.stride,
+    kernels::indexed_row_products(unknown.data(), unknown.size(), state.active_modes, model.stride,
                                   model.contact_rows.data(), state.displacement.data(),
                                   bounds.frame_gap.data());
-    for (std::size_t i = 0; i < unknown; ++i) {
-        const auto c = list[i];
+    for (const auto c : unknown) {
         bounds.frame_gap[c] -= state.contact.height[c];
-        bounds.frame_gap_at[c] = state.frame;
+        known_at[c] = state.frame;
     }
-    state.contact.candidate_count = 0;
 }
 
-/// Contacts that their gap at the frame's start and the speed bound certify leave the list.
-std::size_t certify_by_speed(const StringModel& model, StringState& state, std::size_t expired) {
-    CertificateState& bounds = state.certificate;
-    std::size_t left = 0;
-    for (std::size_t i = 0; i < expired; ++i) {
-        const auto c = bounds.expired[i];
+/// Expired contacts that their gap at the frame's start and the speed bound certify leave the list
+/// (conservative advancement).
+void certify_by_speed(const StringModel& model, StringState& state) {
+    GapBounds& bounds = state.certificate.bounds;
+    state.certificate.expired.filter([&](std::uint32_t c) {
         const std::size_t g = group_of(model, c);
         bounds.open_until[c] = bounds.group_odometer[g] + bounds.frame_gap[c];
-        if (!(bounds.frame_gap[c] > frame_travel(model, gap_speed(state, g)))) bounds.expired[left++] = c;
+        return !(bounds.frame_gap[c] > frame_travel(model, gap_speed(state, g)));
+    });
+}
+
+/// expired <- contacts that neither odometers nor the forecast nor the speed bound certify, with their gaps.
+void find_uncertain(const StringModel& model, StringState& state) {
+    if (is_excited(state)) {
+        find_watched_under_force(model, state);
+        forecast_flown_frame(model, state);
+    } else {
+        find_expired(model, state);
     }
-    return left;
+    if (state.certificate.expired.empty()) return;
+    compute_frame_gaps(model, state);
+    certify_by_speed(model, state);
 }
 
-/// Contacts that neither odometers nor the lookout nor the speed bound certify; their gaps are computed.
-std::size_t find_uncertain(const StringModel& model, StringState& state) {
-    const std::size_t expired = is_excited(state)
-                                    ? look_at_flown(model, state, find_watched_under_force(model, state))
-                                    : find_expired(model, state);
-    if (expired == 0) return 0;
-    compute_frame_gaps(model, state, expired);
-    return certify_by_speed(model, state, expired);
+/// expired <- all contacts, with their gaps.
+void take_all_gaps(const StringModel& model, StringState& state) {
+    state.certificate.expired.fill_to(model.contact_count);
+    compute_frame_gaps(model, state);
 }
 
-/// All contacts, with their gaps.
-std::size_t take_all_gaps(const StringModel& model, StringState& state) {
-    std::vector<std::uint32_t>& list = state.certificate.expired;
-    std::iota(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(model.contact_count), 0U);
-    compute_frame_gaps(model, state, model.contact_count);
-    return model.contact_count;
-}
-
-/// The detours of the groups that the first `left` expired contacts belong to.
-void complete_detours_of(const StringModel& model, StringState& state, std::size_t left) {
-    CertificateState& bounds = state.certificate;
-    std::size_t groups = 0;
-    for (std::size_t i = 0; i < left; ++i) {
-        const auto g = static_cast<std::uint32_t>(group_of(model, bounds.expired[i]));
-        if (groups == 0 || bounds.expired_groups[groups - 1] != g) bounds.expired_groups[groups++] = g;
+/// Completes the detours of the groups that the expired contacts belong to.
+void complete_detours_of_expired(const StringModel& model, StringState& state) {
+    IndexList& groups = state.certificate.expired_groups;
+    groups.clear();
+    for (const auto c : state.certificate.expired) {
+        const std::size_t g = group_of(model, c);
+        if (groups.empty() || groups[groups.size() - 1] != g) groups.push(g);
     }
-    complete_detours(model, state, {bounds.expired_groups.data(), groups});
+    complete_detours(model, state, groups);
 }
 
-/// Contacts that their gaps at both ends of the frame certify leave the list; the others are near.
-void certify_by_both_ends(const StringModel& model, StringState& state, std::size_t left) {
-    CertificateState& bounds = state.certificate;
+/// Expired contacts whose gaps at both ends of the frame do not certify them become near.
+void certify_by_both_ends(const StringModel& model, StringState& state) {
+    GapBounds& bounds = state.certificate.bounds;
+    const IndexList& expired = state.certificate.expired;
     const KickState kicks = is_excited(state) ? bounds.kicks : KickState{};
     ContactState& contact = state.contact;
-    kernels::indexed_row_products(bounds.expired.data(), left, state.active_modes, model.stride,
+    kernels::indexed_row_products(expired.data(), expired.size(), state.active_modes, model.stride,
                                   model.contact_rows.data(), state.displacement_flown.data(),
                                   bounds.frame_end_gap.data());
-    for (std::size_t i = 0; i < left; ++i) {
-        const auto c = bounds.expired[i];
+    for (const auto c : expired) {
         const std::size_t g = group_of(model, c);
         const double end_gap = bounds.frame_end_gap[c] - contact.height[c];
         const double dip = bounds.group_detour[g] + kicks.detour + kicks.frame_detour +
                            lookahead(model) * gap_speed(state, g);
         bounds.margin[c] = std::min(bounds.frame_gap[c], end_gap) - dip;
         if (!(bounds.margin[c] > 0)) {
-            contact.near[contact.near_count++] = c;
-            contact.is_near[c] = 1;
+            make_near(contact, c);
         }
         // Holds at the frame's end, when the odometer has moved on by the frame's travel.
         bounds.open_until[c] = bounds.group_odometer[g] + gap_speed(state, g) * frame_length(model) + end_gap;
         bounds.frame_gap[c] = end_gap;
-        bounds.frame_gap_at[c] = state.frame + 1;
+        state.certificate.validity.frame_gap_at[c] = state.frame + 1;
     }
 }
 
 /// Margins of the contacts that are not near, for the case that impulses happen in this frame.
 void set_margins(const StringModel& model, StringState& state) {
-    CertificateState& bounds = state.certificate;
+    GapBounds& bounds = state.certificate.bounds;
+    const Validity& validity = state.certificate.validity;
     for (std::size_t g = 0; g < group_count(model); ++g) {
         const double limit = bounds.group_odometer[g] + frame_travel(model, gap_speed(state, g));
         const bool clear = stays_clear(model, state, g);
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
-             ++c) {
-            // Of contacts certified by both ends or by the lookout the margin is known; their odometer
-            // reading is the frame's end.
-            if (bounds.frame_gap_at[c] == state.frame + 1 || bounds.certified_at[c] == state.frame) continue;
+        for (const std::size_t c : contacts_of(model, g)) {
+            // Contacts certified by both ends or by the forecast have their margin; their odometer reading is
+            // that of the frame's end.
+            if (validity.frame_gap_at[c] == state.frame + 1 || validity.certified_at[c] == state.frame)
+                continue;
             bounds.margin[c] = clear ? bounds.group_clearance[g] - lookahead(model) * bounds.group_speed[g]
                                      : bounds.open_until[c] - limit;
         }
@@ -214,11 +204,10 @@ void set_margins(const StringModel& model, StringState& state) {
 }
 
 void set_group_margins(const StringModel& model, StringState& state) {
-    CertificateState& bounds = state.certificate;
+    GapBounds& bounds = state.certificate.bounds;
     for (std::size_t g = 0; g < group_count(model); ++g) {
         double smallest = std::numeric_limits<double>::infinity();
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
-             ++c) {
+        for (const std::size_t c : contacts_of(model, g)) {
             if (state.contact.is_near[c] == 0) smallest = std::min(smallest, bounds.margin[c]);
         }
         bounds.group_margin[g] = smallest;
@@ -226,52 +215,62 @@ void set_group_margins(const StringModel& model, StringState& state) {
     }
 }
 
+void clear_near_contacts(ContactState& contact) {
+    for (const auto c : contact.near) contact.is_near[c] = 0;
+    contact.near.clear();
+}
+
+/// How many of the next `frames` frames the odometers and the forecast certify for all contacts.
+std::uint64_t certified_frames(const StringModel& model, StringState& state, std::uint64_t frames) {
+    const auto speeds = state.certificate.bounds.group_speed.begin();
+    const bool finite = std::all_of(speeds, speeds + static_cast<std::ptrdiff_t>(group_count(model)),
+                                    [](double speed) { return std::isfinite(speed); });
+    if (!finite || frames == 0) return 0;
+    find_watched(model, state, static_cast<double>(frames));
+    return state.certificate.forecast.watched.empty() ? frames : forecast_frames(model, state, frames);
+}
+
 }  // namespace
 
 void plan_free_frames(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    CertificateState& bounds = state.certificate;
-    std::uint64_t frames = std::min<std::uint64_t>(frames_until_refresh(state), longest_plan);
-    if (bounds.clear) {
-        bounds.free_frames = frames;
-        bounds.age += frames;
-        return;
-    }
-    const auto speeds = bounds.group_speed.begin();
-    const bool finite = std::all_of(speeds, speeds + static_cast<std::ptrdiff_t>(group_count(model)),
-                                    [](double speed) { return std::isfinite(speed); });
-    if (!finite) frames = 0;
-    if (frames > 0) {
-        const std::size_t watched = find_watched(model, state, static_cast<double>(frames));
-        if (watched > 0) frames = look_out(model, state, watched, frames);
-    }
-    bounds.free_frames = frames;
-    bounds.age += frames;
+    JAWARI_ASSERT(planned_frames(state) == 0 && !is_excited(state) && !needs_refresh(state));
+    GapBounds& bounds = state.certificate.bounds;
+    Validity& validity = state.certificate.validity;
+    const bool clear = state.certificate.clear.valid;
+    std::uint64_t frames = std::min(frames_until_refresh(state), longest_plan);
+    if (!clear) frames = certified_frames(model, state, frames);
+    validity.odometers_at_frame = state.frame + frames;
+    validity.age += frames;
+    if (clear) return;
     const double time = frame_length(model) * static_cast<double>(frames);
     for (std::size_t g = 0; g < group_count(model); ++g)
         bounds.group_odometer[g] += bounds.group_speed[g] * time;
 }
 
 bool choose_near_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    ContactState& contact = state.contact;
-    for (std::size_t i = 0; i < contact.near_count; ++i) contact.is_near[contact.near[i]] = 0;
-    contact.near_count = 0;
+    clear_near_contacts(state.contact);
     if (state.leaves_obstacles) return false;
     if (is_excited(state)) add_kicks(model, state);
-    const std::size_t left =
-        state.certificate.direct ? take_all_gaps(model, state) : find_uncertain(model, state);
-    if (left == 0) return false;
-    complete_detours_of(model, state, left);
-    certify_by_both_ends(model, state, left);
-    if (contact.near_count == 0) return false;
+    if (state.certificate.validity.direct) {
+        take_all_gaps(model, state);
+    } else {
+        find_uncertain(model, state);
+    }
+    if (state.certificate.expired.empty()) return false;
+    complete_detours_of_expired(model, state);
+    certify_by_both_ends(model, state);
+    if (state.contact.near.empty()) return false;
     set_margins(model, state);
     set_group_margins(model, state);
     return true;
 }
 
 void advance_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    CertificateState& bounds = state.certificate;
-    bounds.age += 1;
-    if (bounds.clear) return;
+    GapBounds& bounds = state.certificate.bounds;
+    Validity& validity = state.certificate.validity;
+    validity.age += 1;
+    if (state.certificate.clear.valid) return;
+    validity.odometers_at_frame = state.frame + 1;
     const double frame_s = frame_length(model);
     const double kick = bounds.kicks.speed;
     double *odometer = bounds.group_odometer.data(), *push = bounds.group_push.data();
@@ -281,48 +280,50 @@ void advance_bounds(const StringModel& model, StringState& state) JAWARI_REALTIM
         odometer[g] += (speed[g] + kick) * frame_s + push[g];
         push[g] = 0;
     }
-    if (bounds.direct) bounds.outdated = true;  // odometers are to go on from a speed again
+    if (validity.direct) validity.outdated = true;  // odometers are to go on from a speed again
 }
 
 void note_stepped_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    CertificateState& bounds = state.certificate;
+    GapBounds& bounds = state.certificate.bounds;
+    std::vector<std::uint64_t>& known_at = state.certificate.validity.frame_gap_at;
     const ContactState& contact = state.contact;
     for (std::size_t c = 0; c < model.contact_count; ++c) {
         if (contact.is_near[c] != 0) {
             bounds.frame_gap[c] = contact.gap[c];
-            bounds.frame_gap_at[c] = state.frame + 1;
+            known_at[c] = state.frame + 1;
             bounds.open_until[c] = bounds.group_odometer[group_of(model, c)] + contact.gap[c];
-        } else if (bounds.frame_gap_at[c] == state.frame + 1) {
-            bounds.frame_gap_at[c] = unknown_frame;
+        } else if (known_at[c] == state.frame + 1) {
+            known_at[c] = unknown_frame;
         }
     }
     forget_low_gaps(state);
 }
 
 void forget_bounds(StringState& state) JAWARI_REALTIME {
-    CertificateState& bounds = state.certificate;
-    bounds.outdated = true;
-    bounds.clear = false;
-    bounds.clear_limits_outdated = true;
-    bounds.free_frames = 0;
-    bounds.struck = false;
-    bounds.presumed_near = 0;
+    CertificateState& certificate = state.certificate;
+    GapBounds& bounds = certificate.bounds;
+    Validity& validity = certificate.validity;
+    certificate.struck = false;
+    certificate.backoff.left = 0;
+    certificate.clear.valid = false;
+    certificate.clear.limits_valid = false;
+    validity.outdated = true;
+    validity.odometers_at_frame = state.frame;
+    state.contact.stepping_in_frame = unknown_frame;
     state.short_frame.gaps_at = unknown_frame;
-    std::fill(bounds.open_until.begin(), bounds.open_until.end(), -std::numeric_limits<double>::infinity());
-    std::fill(bounds.frame_gap_at.begin(), bounds.frame_gap_at.end(), unknown_frame);
-    std::fill(bounds.certified_at.begin(), bounds.certified_at.end(), unknown_frame);
+    std::fill(validity.frame_gap_at.begin(), validity.frame_gap_at.end(), unknown_frame);
+    std::fill(validity.certified_at.begin(), validity.certified_at.end(), unknown_frame);
     forget_low_gaps(state);
+    std::fill(bounds.open_until.begin(), bounds.open_until.end(), -std::numeric_limits<double>::infinity());
     std::fill(bounds.group_odometer.begin(), bounds.group_odometer.end(), 0.0);
     std::fill(bounds.group_push.begin(), bounds.group_push.end(), 0.0);
 }
 
 void choose_all_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
-    contact.near_count = state.leaves_obstacles ? 0 : model.contact_count;
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
-        contact.near[c] = static_cast<std::uint32_t>(c);
-        contact.is_near[c] = state.leaves_obstacles ? 0 : 1;
-    }
+    const std::uint8_t are_near = state.leaves_obstacles ? 0 : 1;
+    contact.near.fill_to(state.leaves_obstacles ? 0 : model.contact_count);
+    std::fill_n(contact.is_near.begin(), model.contact_count, are_near);
 }
 
 }  // namespace jawari

@@ -1,5 +1,5 @@
-// Which contacts can close within a frame: lower bounds of gaps that cost less than the gaps (proof:
-// docs/engine/certificate.md).
+// The broad phase: which contacts can close within a frame. It is a conservative advancement: lower bounds of
+// the gaps, which cost less than the gaps, certify most contacts (proof: docs/engine/certificate.md).
 #pragma once
 
 #include <cstddef>
@@ -10,26 +10,26 @@
 
 namespace jawari {
 
-/// Frames from now on, at least that many, in which no contact can close and no bound is needed anew.
-/// state.certificate.free_frames receives them, and the odometers move on by them at once. Bounds must be
+/// Plans the coming frames in which no contact can close and no bound is needed anew: planned_frames(), by
+/// which the odometers move on at once. Precondition: nothing is planned, no force acts, the bounds are
 /// fresh.
 void plan_free_frames(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
-/// Chooses the contacts that may close in the coming frame as state.contact.near. displacement_flown holds
-/// the frame's end in free flight. Returns true if there are any.
+/// Makes the contacts near that may close in the coming frame, of which displacement_flown holds the end in
+/// free flight. Returns true if there are any.
 bool choose_near_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
 /// Moves the odometers on by one frame.
 void advance_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
-/// After a frame with impulses, its bounds already advanced: what stepping found replaces what free flight
-/// predicted.
+/// After a frame with impulses, its bounds already advanced: replaces the gaps that free flight predicted by
+/// those that stepping found.
 void note_stepped_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
-/// Nothing is known of any gap.
+/// Forgets every bound and every known gap.
 void forget_bounds(StringState& state) JAWARI_REALTIME;
 
-/// All contacts are near.
+/// Makes all contacts near, or none if the string leaves the obstacles.
 void choose_all_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
 }  // namespace jawari

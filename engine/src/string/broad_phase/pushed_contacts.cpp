@@ -13,10 +13,7 @@ double push_of_step(const StringModel& model, const StringState& state, std::siz
     const ContactState& contact = state.contact;
     const double* push = model.certificate.push.data() + g * model.contact_count;
     double speed = 0;
-    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
-        const auto c = contact.candidates[i];
-        speed += push[c] * contact.impulse[c];
-    }
+    for (const auto c : contact.candidates) speed += push[c] * contact.impulse[c];
     const double time_left = model.step_s * static_cast<double>(state.steps_left) + lookahead(model);
     return bound_safety * model.certificate.push_growth * speed * time_left;
 }
@@ -25,15 +22,14 @@ double push_of_step(const StringModel& model, const StringState& state, std::siz
 
 bool admit_pushed_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
-    if (contact.near_count == model.contact_count) return false;
-    CertificateState& bounds = state.certificate;
+    if (contact.near.size() == model.contact_count) return false;
+    GapBounds& bounds = state.certificate.bounds;
     bool admitted = false;
     for (std::size_t g = 0; g < group_count(model); ++g) {
         const double push = bounds.group_push[g] + push_of_step(model, state, g);
         if (bounds.group_margin[g] > push) continue;
         double smallest = std::numeric_limits<double>::infinity();
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
-             ++c) {
+        for (const std::size_t c : contacts_of(model, g)) {
             if (contact.is_near[c] != 0) continue;
             if (bounds.margin[c] > push) {
                 smallest = std::min(smallest, bounds.margin[c]);
@@ -48,11 +44,10 @@ bool admit_pushed_contacts(const StringModel& model, StringState& state) JAWARI_
 }
 
 void charge_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    CertificateState& bounds = state.certificate;
-    bounds.outdated = true;
-    if (state.contact.near_count == model.contact_count) return;
-    for (std::size_t g = 0; g < group_count(model); ++g)
-        bounds.group_push[g] += push_of_step(model, state, g);
+    state.certificate.validity.outdated = true;
+    if (state.contact.near.size() == model.contact_count) return;
+    std::vector<double>& push = state.certificate.bounds.group_push;
+    for (std::size_t g = 0; g < group_count(model); ++g) push[g] += push_of_step(model, state, g);
 }
 
 }  // namespace jawari

@@ -1,4 +1,4 @@
-// What the impulses of a stepped frame do to contacts that were certified before them
+// The impulses of a stepped frame may push contacts in that were certified before the impulses were known
 // (docs/engine/certificate.md, section 5).
 #pragma once
 
@@ -8,11 +8,12 @@
 
 namespace jawari {
 
-/// True if the impulses just found may reach contacts that are not near; they are then near, with their gaps
-/// in this step, and the step's impulses must be found again.
+/// Makes those contacts near, with their gaps in this step, that the impulses just found may push in. Returns
+/// true if there are any: the step's impulses must then be solved again.
 bool admit_pushed_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
-/// Charges the step's impulses to the margins of the other contacts, for the rest of the frame.
+/// Adds what the step's impulses may move the contacts that are not near, until the frame's end, to
+/// group_push.
 void charge_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
 }  // namespace jawari

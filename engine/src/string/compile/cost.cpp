@@ -35,10 +35,10 @@ double looking(const Sizes& n) {
     return n.modes * (bound_operations + 3 * n.groups + 2 * n.contacts + flight_operations);
 }
 
-/// The low modes flown ahead, and the gaps that they show of all contacts (lookout.cpp).
+/// The forecast: the low modes advanced, and the gaps of all contacts that they predict (forecast.cpp).
 double planning(const Sizes& n) {
     const auto frames = static_cast<double>(longest_plan);
-    const double low = std::min(n.modes, static_cast<double>(lookout_modes));
+    const double low = std::min(n.modes, static_cast<double>(forecast_modes));
     return low * (frames * flight_operations + (frames + 1) * n.contacts);
 }
 

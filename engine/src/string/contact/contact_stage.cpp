@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/assert.h"
 #include "jawari/detail/lcp.h"
 #include "string/contact/impact_law.h"
 #include "string/kernels/mode_sums.h"
@@ -26,8 +27,7 @@ ContactMoment moment_of(const StringModel& model, const ContactState& contact, s
 double gap_response(const StringModel& model, const ContactState& contact, std::size_t c) {
     const ContactOperator A = compliance_of(model);
     double response = 0;
-    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
-        const auto other = contact.candidates[i];
+    for (const auto other : contact.candidates) {
         if (contact.impulse[other] > 0) response += A(c, other) * contact.impulse[other];
     }
     return response;
@@ -38,22 +38,21 @@ double gap_response(const StringModel& model, const ContactState& contact, std::
 void make_passive(const StringModel& model, ContactState& contact) {
     double linear = 0;
     double quadratic = 0;
-    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
-        const auto c = contact.candidates[i];
+    for (const auto c : contact.candidates) {
         const double impulse = contact.impulse[c];
         if (impulse <= 0) continue;
         linear += impulse * (contact.gap_free[c] - contact.gap_before[c]);
         quadratic += impulse * gap_response(model, contact, c);
     }
     const double scale = quadratic > 0 ? std::clamp(-linear / quadratic, 0.0, 1.0) : 0.0;
-    for (std::size_t i = 0; i < contact.candidate_count; ++i) contact.impulse[contact.candidates[i]] *= scale;
+    for (const auto c : contact.candidates) contact.impulse[c] *= scale;
 }
 
 /// out <- S x at the near contacts.
 void near_products(const StringModel& model, StringState& state, const AlignedVector<double>& x,
                    AlignedVector<double>& out) {
     const ContactState& contact = state.contact;
-    kernels::indexed_row_products(contact.near.data(), contact.near_count, state.active_modes, model.stride,
+    kernels::indexed_row_products(contact.near.data(), contact.near.size(), state.active_modes, model.stride,
                                   model.contact_rows.data(), x.data(), out.data());
 }
 
@@ -63,8 +62,7 @@ void place_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
     near_products(model, state, state.displacement, contact.gap);
     near_products(model, state, state.velocity, contact.gap_rate);
-    for (std::size_t i = 0; i < contact.near_count; ++i) {
-        const auto c = contact.near[i];
+    for (const auto c : contact.near) {
         contact.gap_before[c] =
             contact.gap[c] - model.step_s * contact.gap_rate[c] - contact.height_before[c];
         contact.gap[c] -= contact.height[c];
@@ -72,6 +70,7 @@ void place_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
 }
 
 void join_step(const StringModel& model, StringState& state, std::size_t c) JAWARI_REALTIME {
+    JAWARI_ASSERT(c < model.contact_count);
     ContactState& contact = state.contact;
     const auto row_product = [&](const AlignedVector<double>& x) {
         const auto index = static_cast<std::uint32_t>(c);
@@ -83,8 +82,7 @@ void join_step(const StringModel& model, StringState& state, std::size_t c) JAWA
     contact.gap_before[c] = contact.gap[c] - model.step_s * row_product(state.velocity_before);
     contact.gap_free[c] = contact.gap[c] + model.step_s * row_product(state.velocity);
     contact.impulse[c] = 0;
-    contact.near[contact.near_count++] = static_cast<std::uint32_t>(c);
-    contact.is_near[c] = 1;
+    make_near(contact, c);
 }
 
 void move_obstacles(ContactState& contact) JAWARI_REALTIME {
@@ -114,8 +112,7 @@ void predict_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME 
     ContactState& contact = state.contact;
     const double h = model.step_s;
     near_products(model, state, state.velocity, contact.gap_free);
-    for (std::size_t i = 0; i < contact.near_count; ++i) {
-        const auto c = contact.near[i];
+    for (const auto c : contact.near) {
         const double raised = contact.height[c] - contact.height_before[c];
         const double rate = model.theta * contact.gap_free[c] + (1 - model.theta) * contact.gap_rate[c];
         contact.gap_free[c] = contact.gap[c] + h * rate - raised;
@@ -124,16 +121,15 @@ void predict_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME 
 
 bool select_candidates(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
-    contact.candidate_count = 0;
+    contact.candidates.clear();
     bool violated = false;
-    for (std::size_t i = 0; i < contact.near_count; ++i) {
-        const auto c = contact.near[i];
+    for (const auto c : contact.near) {
         const ContactMoment moment = moment_of(model, contact, c);
         if (!is_candidate(model.law, moment)) {
             contact.impulse[c] = 0;
             continue;
         }
-        contact.candidates[contact.candidate_count++] = c;
+        contact.candidates.push(c);
         contact.offset[c] = contact.gap_free[c] - target_gap(model.law, moment);
         violated = violated || contact.offset[c] < 0;
     }
@@ -142,15 +138,14 @@ bool select_candidates(const StringModel& model, StringState& state) JAWARI_REAL
 
 void clear_impulses(StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
-    for (std::size_t i = 0; i < contact.near_count; ++i) contact.impulse[contact.near[i]] = 0;
+    for (const auto c : contact.near) contact.impulse[c] = 0;
 }
 
 void solve_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
     Counters& counters = state.counters;
-    const std::span<const std::uint32_t> candidates{contact.candidates.data(), contact.candidate_count};
-    const LcpOutcome outcome = solve_lcp(compliance_of(model), contact.offset, candidates, contact.impulse,
-                                         contact.residual, state.lcp);
+    const LcpOutcome outcome = solve_lcp(compliance_of(model), contact.offset, contact.candidates.span(),
+                                         contact.impulse, contact.residual, state.lcp);
     counters.solves += 1;
     contact.left_open = outcome.finished ? outcome.residual : 0.0;
     if (outcome.finished) {
@@ -163,8 +158,7 @@ void solve_impulses(const StringModel& model, StringState& state) JAWARI_REALTIM
 
 void apply_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME {
     const ContactState& contact = state.contact;
-    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
-        const auto c = contact.candidates[i];
+    for (const auto c : contact.candidates) {
         if (contact.impulse[c] <= 0) continue;
         kernels::add_impulse(model.stride, contact.impulse[c], model.mobility.data(),
                              model.contact_rows.data() + c * model.stride, state.velocity.data());
@@ -173,27 +167,21 @@ void apply_impulses(const StringModel& model, StringState& state) JAWARI_REALTIM
 
 void accept_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
-    for (std::size_t i = 0; i < contact.near_count; ++i) {
-        const auto c = contact.near[i];
+    for (const auto c : contact.near) {
         contact.gap_before[c] = contact.gap[c];
         contact.gap[c] = contact.gap_free[c];
     }
     const ContactOperator A = compliance_of(model);
-    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
-        const auto active = contact.candidates[i];
+    for (const auto active : contact.candidates) {
         const double impulse = contact.impulse[active];
         if (impulse <= 0) continue;
         contact.frame_impulse[active] += impulse;
         state.counters.impulses += 1;
-        for (std::size_t j = 0; j < contact.near_count; ++j) {
-            contact.gap[contact.near[j]] += A(active, contact.near[j]) * impulse;
-        }
+        for (const auto c : contact.near) contact.gap[c] += A(active, c) * impulse;
     }
-    state.counters.candidates += contact.candidate_count;
-    for (std::size_t i = 0; i < contact.near_count; ++i) {
-        state.counters.worst_penetration_m =
-            std::max(state.counters.worst_penetration_m, -contact.gap[contact.near[i]]);
-    }
+    state.counters.candidates += contact.candidates.size();
+    for (const auto c : contact.near)
+        state.counters.worst_penetration_m = std::max(state.counters.worst_penetration_m, -contact.gap[c]);
 }
 
 }  // namespace jawari

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "base/assert.h"
 #include "jawari/detail/string_model.h"
 #include "jawari/detail/string_state.h"
 #include "jawari/realtime.h"
@@ -15,6 +16,13 @@ inline double excused_depth(const StringModel& model, const ContactState& contac
     return model.gap_rounding_m + contact.left_open;
 }
 
+/// Contact `c` joins the near contacts. Precondition: it is not one of them.
+inline void make_near(ContactState& contact, std::size_t c) noexcept {
+    JAWARI_ASSERT(contact.is_near[c] == 0);
+    contact.near.push(c);
+    contact.is_near[c] = 1;
+}
+
 /// gap <- S q - b and gap_before <- the same one step earlier, for the near contacts.
 void place_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
@@ -22,7 +30,7 @@ void place_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME;
 /// holds v_free, velocity_before the step's v.
 void join_step(const StringModel& model, StringState& state, std::size_t c) JAWARI_REALTIME;
 
-/// Moves the obstacles that are on their way by one step.
+/// Moves the moving obstacles by one step.
 void move_obstacles(ContactState& contact) JAWARI_REALTIME;
 
 /// gap_rate <- S v of the step's start at the near contacts; needed by the theta scheme only.

@@ -8,7 +8,7 @@
 
 namespace jawari {
 
-/// What a law may look at: one contact at the start of a step.
+/// What an impact law depends on: one contact at the start of a step.
 struct ContactMoment {
     double gap = 0;         ///< y [m]
     double gap_before = 0;  ///< y one step earlier [m]
@@ -16,17 +16,18 @@ struct ContactMoment {
     double restitution = 0;
     double theta = 1;
     Scheme scheme = Scheme::Exact;
-    double excused = 0;  ///< depth that rounding explains, excused_depth() in contact.h [m]
+    double excused = 0;  ///< depth that rounding explains, excused_depth() in contact_stage.h [m]
 };
 
-/// Newton and passive restitution act on contacts whose gap, carried on for half a step, is closed.
+/// Whether the law acts on the contact. Newton and passive restitution act if the gap, extrapolated by half a
+/// step, is closed.
 inline bool is_candidate(ImpactLaw law, const ContactMoment& c) {
     if (law == ImpactLaw::Signorini || law == ImpactLaw::PaoliSchatzman) return true;
     const double change = c.scheme == Scheme::Theta ? c.approach : c.gap - c.gap_before;
     return c.gap + change / 2 <= 0;
 }
 
-/// Newton and passive restitution look half a step ahead.
+/// Whether is_candidate() extrapolates the gap by half a step.
 inline bool looks_ahead(ImpactLaw law) {
     return law == ImpactLaw::Newton || law == ImpactLaw::Passive;
 }

@@ -1,14 +1,16 @@
-// One output frame: what can be flown is flown, what may touch is stepped.
+// One output frame: free flight where no contact can close, contact steps elsewhere.
+#include "string/frame/frame.h"
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "jawari/scene/render.h"
 #include "string/broad_phase/gap_bounds.h"
 #include "string/broad_phase/gap_certificate.h"
 #include "string/contact/contact_stage.h"
-#include "string/frame/frame.h"
 #include "string/frame/near_frame.h"
 #include "string/frame/short_frame.h"
+#include "string/frame/step.h"
 #include "string/kernels/flight.h"
 #include "string/kernels/mode_bounds.h"
 #include "string/kernels/mode_sums.h"
@@ -17,22 +19,15 @@
 namespace jawari {
 namespace {
 
-/// Most frames under forces that are solved without looking whether contacts may close, after looks that were
-/// in vain: one costs two thirds of solving the frame.
-constexpr std::uint32_t longest_presumption = 7;
-
-bool may_skip(const StringModel& model, const StringState& state) {
-    const Skipping& skipping = state.skipping;
-    const bool any =
-        skipping.flight || skipping.certificate || skipping.near || skipping.lazy || skipping.sleep;
-    return any && model.scheme == Scheme::Exact && state.metering != Metering::Step;
-}
+/// Most frames that a failed contact test grants without a test, while a force acts: a test costs two thirds
+/// of solving the frame.
+constexpr std::uint32_t longest_backoff = 7;
 
 /// The frame step by step, evaluating the near contacts. Returns true if impulses happened.
 bool step_through(const StringModel& model, StringState& state) {
     const std::uint64_t impulses_before = state.counters.impulses;
     place_gaps(model, state);
-    for (state.steps_left = model.steps_per_frame; state.steps_left > 0;) step(model, state);
+    for (state.steps_left = model.steps_per_frame; state.steps_left > 0;) step_near_contacts(model, state);
     return state.counters.impulses != impulses_before;
 }
 
@@ -56,7 +51,21 @@ void adopt_flight(StringState& state) {
     state.velocity.swap(state.velocity_flown);
 }
 
-/// The frame without any contact in reach.
+/// H can only rise in frames with contact or excitation.
+void meter_highest(const StringModel& model, StringState& state) {
+    if (state.metering == Metering::Frame) meter_frame(model, state);
+}
+
+bool is_finite(const StringState& state) {
+    const ContactState& contact = state.contact;
+    const bool gaps_are_finite = std::all_of(contact.near.begin(), contact.near.end(),
+                                             [&](std::uint32_t c) { return std::isfinite(contact.gap[c]); });
+    return gaps_are_finite && kernels::all_finite(state.active_modes, state.displacement.data()) &&
+           kernels::all_finite(state.active_modes, state.velocity.data());
+}
+
+/// Free flight, already in displacement_flown and velocity_flown, or free stepping where flight is not
+/// allowed.
 void pass_freely(const StringModel& model, StringState& state) {
     state.certificate.struck = false;
     if (state.skipping.flight) {
@@ -67,44 +76,23 @@ void pass_freely(const StringModel& model, StringState& state) {
     } else {
         step_through(model, state);
     }
+    advance_bounds(model, state);
+    if (is_excited(state)) meter_highest(model, state);
 }
 
-/// The frame with all contacts, which is cheap where frames are short. Returns false if the state has become
-/// non-finite.
+/// Solves all contacts side by side. Returns false if the state has become non-finite.
 bool pass_short(const StringModel& model, StringState& state) {
     const bool finite = solve_short_frame(model, state);
     adopt_flight(state);
-    state.certificate.age += 1;
+    state.certificate.validity.age += 1;
+    meter_highest(model, state);
     return finite;
 }
 
-/// Whether frames with contact are solved as short ones.
-bool goes_short(const StringModel& model, const StringState& state) {
-    return state.skipping.near && has_short_frames(model);
-}
-
-/// A look under forces has found contacts that may close: the next look is the later, the longer that lasts.
-void presume_near(StringState& state) {
-    CertificateState& bounds = state.certificate;
-    bounds.presumption = std::min(2 * bounds.presumption + 1, longest_presumption);
-    bounds.presumed_near = bounds.presumption;
-}
-
-/// The coming frame has contacts that may close without anybody having looked: nobody has added up what its
-/// forces do to the bounds.
-void presume_once(StringState& state) {
-    state.certificate.presumed_near -= 1;
-    state.certificate.outdated = true;
-}
-
-/// What a short frame before the coming one knows of the gaps.
-void take_up_gaps(const StringModel& model, StringState& state) {
-    if (state.short_frame.gaps_at == state.frame) note_short_frame(model, state);
-}
-
-/// The frame with contacts that may close. What was flown stays valid if none did.
-void pass_near(const StringModel& model, StringState& state) {
-    const bool in_contact_space = state.skipping.near && !model.response.empty();
+/// Solves the near contacts. The flight that the test has computed stays valid if none of them closes.
+/// Returns false if the state has become non-finite.
+bool pass_near(const StringModel& model, StringState& state, FrameKind kind) {
+    const bool in_contact_space = kind == FrameKind::NearInContactSpace;
     if (!state.skipping.near) choose_all_contacts(model, state);
     const bool struck = in_contact_space ? solve_near_frame(model, state) : step_through(model, state);
     state.counters.near_frames += 1;
@@ -112,106 +100,114 @@ void pass_near(const StringModel& model, StringState& state) {
     advance_bounds(model, state);
     state.certificate.struck = struck;
     if (struck) note_stepped_gaps(model, state);
+    meter_highest(model, state);
+    return is_finite(state);
 }
 
-/// Everything is stepped; nothing is known of the gaps afterwards.
-void pass_uniformly(const StringModel& model, StringState& state) {
+/// Steps all contacts over all modes. The bounds do not follow. Returns false if the state has become
+/// non-finite.
+bool pass_uniformly(const StringModel& model, StringState& state) {
     choose_all_contacts(model, state);
     state.active_modes = model.stride;
     step_through(model, state);
     forget_bounds(state);
+    meter_highest(model, state);
+    return is_finite(state);
 }
 
-/// H can only rise in frames with contact or excitation.
-void meter_highest(const StringModel& model, StringState& state) {
-    if (state.metering == Metering::Frame) meter_frame(model, state);
+void forget_frame_impulses(StringState& state) {
+    std::fill(state.contact.frame_impulse.begin(), state.contact.frame_impulse.end(), 0.0);
 }
 
-bool is_finite(const StringState& state) {
-    const ContactState& contact = state.contact;
-    const bool gaps_are_finite = std::all_of(
-        contact.near.begin(), contact.near.begin() + static_cast<std::ptrdiff_t>(contact.near_count),
-        [&](std::uint32_t c) { return std::isfinite(contact.gap[c]); });
-    return gaps_are_finite && kernels::all_finite(state.active_modes, state.displacement.data()) &&
-           kernels::all_finite(state.active_modes, state.velocity.data());
-}
-
-/// A string that is not finite restarts at rest.
+/// Puts a string that is not finite to rest.
 void start_again(const StringModel& model, StringState& state) {
     put_to_rest(model, state);
     state.counters.nonfinite_resets += 1;
 }
 
-/// Whether every contact must be evaluated at every step.
-bool is_uniform(const StringModel& model, const StringState& state) {
-    return !may_skip(model, state) || state.contact.moving_count > 0 ||
-           (!state.skipping.certificate && model.contact_count > 0);
-}
-
-/// Returns false if the state has become non-finite.
-bool advance_awake(const StringModel& model, StringState& state) {
-    if (is_uniform(model, state)) {
-        pass_uniformly(model, state);
-        meter_highest(model, state);
-        return is_finite(state);
-    }
-    wake_excited_modes(state);
-    const bool excited = is_excited(state);
-    const bool plan_failed = !excited && state.skipping.flight;
-    const bool presumed = excited && state.certificate.presumed_near > 0;
-    if (goes_short(model, state) && (state.certificate.struck || plan_failed || presumed)) {
-        if (presumed) presume_once(state);
-        const bool finite = pass_short(model, state);
-        meter_highest(model, state);
-        return finite;
-    }
-    take_up_gaps(model, state);
-    if (needs_refresh(state)) refresh_bounds(model, state);
-    if (state.asleep) return true;
-    if (!fly(model, state)) return false;
-    if (!state.certificate.clear && choose_near_contacts(model, state)) {
-        bool finite = true;
-        if (goes_short(model, state)) {
-            finite = pass_short(model, state);
-            if (excited) presume_near(state);
-        } else {
-            pass_near(model, state);
-            finite = is_finite(state);
-        }
-        meter_highest(model, state);
-        return finite;
-    }
-    state.certificate.presumption = 0;
-    pass_freely(model, state);
-    advance_bounds(model, state);
-    if (excited) meter_highest(model, state);
-    return true;
-}
-
-/// Wakes a string that is about to be moved, and forgets the last frame's impulses.
-void begin_frame(const StringModel& model, StringState& state) {
+/// Ends a plan that an excitation or a moving obstacle has overtaken, wakes the string and what a force is
+/// about to move, and forgets the last frame's impulses.
+void begin_unplanned_frame(const StringModel& model, StringState& state) {
+    if (planned_frames(state) > 0) forget_bounds(state);
     if (state.asleep) notice_change(model, state);
-    std::fill(state.contact.frame_impulse.begin(), state.contact.frame_impulse.end(), 0.0);
+    forget_frame_impulses(state);
+    wake_excited_modes(state);
+}
+
+/// Makes the bounds hold for the coming frame, which may put a faded string to sleep.
+void freshen_bounds(const StringModel& model, StringState& state) {
+    // A short frame before the coming one has computed all gaps.
+    if (state.short_frame.gaps_at == state.frame) note_short_frame(model, state);
+    if (needs_refresh(state)) refresh_bounds(model, state);
+}
+
+/// Whether a contact may close in the coming frame, which is flown for that; NotAsked if the string has
+/// fallen asleep. Nothing if the state is not finite.
+std::optional<BroadPhaseAnswer> test_frame(const StringModel& model, StringState& state) {
+    freshen_bounds(model, state);
+    if (state.asleep) return BroadPhaseAnswer::NotAsked;
+    if (!fly(model, state)) return std::nullopt;
+    const bool may_close = !state.certificate.clear.valid && choose_near_contacts(model, state);
+    return may_close ? BroadPhaseAnswer::MayClose : BroadPhaseAnswer::Open;
+}
+
+/// A test that fails under forces grants frames without one, the more the longer that lasts; one that
+/// succeeds ends that.
+void update_backoff(StringState& state, FrameKind kind, BroadPhaseAnswer answer) {
+    Backoff& backoff = state.certificate.backoff;
+    if (kind == FrameKind::Checked) backoff.granted = 0;
+    if (kind != FrameKind::Short || !is_excited(state)) return;
+    if (answer == BroadPhaseAnswer::MayClose) {
+        backoff.granted = std::min(2 * backoff.granted + 1, longest_backoff);
+        backoff.left = backoff.granted;
+    } else if (backoff.left > 0) {
+        // The frame is solved without a contact test, so its forces are not added to the bounds.
+        backoff.left -= 1;
+        state.certificate.validity.outdated = true;
+    }
+}
+
+/// The kind of the coming frame, which is tested for contact if the choice depends on that. Nothing if the
+/// state is not finite.
+std::optional<FrameKind> find_frame_kind(const StringModel& model, StringState& state,
+                                         BroadPhaseAnswer answer) {
+    std::optional<FrameKind> kind = choose_frame_kind(model, state, answer);
+    if (!kind) {
+        const std::optional<BroadPhaseAnswer> tested = test_frame(model, state);
+        if (!tested) return std::nullopt;
+        answer = *tested;
+        kind = choose_frame_kind(model, state, answer);
+        JAWARI_ASSERT(kind.has_value());
+    }
+    update_backoff(state, *kind, answer);
+    return kind;
+}
+
+/// Counts a frame that is neither slept through nor planned.
+void end_frame(const StringModel& model, StringState& state, bool finite) {
+    if (!finite) start_again(model, state);
+    state.frame += 1;
 }
 
 }  // namespace
 
-std::size_t frames_to_fly(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    if (state.asleep || is_uniform(model, state) || is_excited(state) || !state.skipping.flight) return 0;
-    CertificateState& bounds = state.certificate;
-    if (bounds.free_frames == 0) {
-        if (bounds.struck && goes_short(model, state)) return 0;
-        take_up_gaps(model, state);
-        if (needs_refresh(state)) refresh_bounds(model, state);
-        if (state.asleep || bounds.direct) return 0;
-        plan_free_frames(model, state);
-    }
-    return bounds.free_frames;
+BroadPhaseAnswer plan_frames(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    const bool may_fly = state.skipping.flight && !is_excited(state) && !steps_uniformly(model, state);
+    if (state.asleep || !may_fly) return BroadPhaseAnswer::NotAsked;
+    if (planned_frames(state) > 0) return BroadPhaseAnswer::Planned;
+    if (state.certificate.struck && solves_short_frames(model, state)) return BroadPhaseAnswer::NotAsked;
+    freshen_bounds(model, state);
+    if (state.asleep) return BroadPhaseAnswer::NotAsked;
+    if (state.certificate.validity.direct) return BroadPhaseAnswer::PlanFailed;
+    plan_free_frames(model, state);
+    return planned_frames(state) > 0 ? BroadPhaseAnswer::Planned : BroadPhaseAnswer::PlanFailed;
 }
 
 void fly_ahead(const StringModel& model, StringState& state, std::span<const Reading> readings, ReadAt when,
                std::size_t first, std::size_t frames) JAWARI_REALTIME {
-    begin_frame(model, state);
+    JAWARI_ASSERT(frames >= 1 && frames <= planned_frames(state));
+    JAWARI_ASSERT(!state.asleep && !is_excited(state));
+    forget_frame_impulses(state);
     kernels::FlightRun run;
     run.modes = state.active_modes;
     run.frames = frames;
@@ -222,7 +218,6 @@ void fly_ahead(const StringModel& model, StringState& state, std::span<const Rea
     run.when = when;
     run.first = first;
     const bool finite = kernels::fly_frames(run);
-    state.certificate.free_frames -= frames;
     state.certificate.struck = false;
     state.counters.steps += frames * model.steps_per_frame;
     state.counters.flown_frames += frames;
@@ -232,29 +227,41 @@ void fly_ahead(const StringModel& model, StringState& state, std::span<const Rea
     for (const Reading& reading : readings) std::fill_n(reading.out + first, frames, 0.0);
 }
 
-void advance_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    if (sleeps_on(state)) {
-        pass_asleep(model, state, 1);
-    } else if (frames_to_fly(model, state) > 0) {
-        fly_ahead(model, state, {}, ReadAt::Start, 0, 1);
-    } else {
-        look_at_frame(model, state);
+void cross_frame(const StringModel& model, StringState& state, BroadPhaseAnswer answer) JAWARI_REALTIME {
+    const bool planned = answer == BroadPhaseAnswer::Planned;
+    if (!planned && !sleeps_on(state)) begin_unplanned_frame(model, state);
+    const std::optional<FrameKind> kind = find_frame_kind(model, state, answer);
+    if (!kind) {
+        end_frame(model, state, false);
+        return;
+    }
+    switch (*kind) {
+        case FrameKind::Asleep:
+            pass_asleep(model, state, 1);
+            break;
+        case FrameKind::Planned:
+            fly_ahead(model, state, {}, ReadAt::Start, 0, 1);
+            break;
+        case FrameKind::Checked:
+            pass_freely(model, state);
+            end_frame(model, state, true);
+            break;
+        case FrameKind::NearInContactSpace:
+        case FrameKind::NearStepped:
+            end_frame(model, state, pass_near(model, state, *kind));
+            break;
+        case FrameKind::Short:
+            end_frame(model, state, pass_short(model, state));
+            break;
+        case FrameKind::Uniform:
+            end_frame(model, state, pass_uniformly(model, state));
+            break;
     }
 }
 
-void look_at_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    if (sleeps_on(state)) {  // just fallen asleep
-        pass_asleep(model, state, 1);
-        return;
-    }
-    if (state.certificate.free_frames > 0) forget_bounds(state);  // an excitation ends what was planned
-    begin_frame(model, state);
-    if (!advance_awake(model, state)) start_again(model, state);
-    if (state.asleep) {  // just now
-        pass_asleep(model, state, 1);
-    } else {
-        state.frame += 1;
-    }
+void advance_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    JAWARI_ASSERT(state.displacement.size() >= model.stride);
+    cross_frame(model, state, plan_frames(model, state));
 }
 
 }  // namespace jawari

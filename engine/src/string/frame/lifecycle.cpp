@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/assert.h"
 #include "jawari/scene/energy.h"
 #include "string/broad_phase/gap_bounds.h"
 #include "string/broad_phase/gap_certificate.h"
@@ -12,18 +13,25 @@
 namespace jawari {
 namespace {
 
+ContactGaps make_contact_gaps(std::size_t contacts) {
+    ContactGaps gaps;
+    for (auto* array : {&gaps.gap, &gaps.gap_before, &gaps.impulse, &gaps.frame_impulse})
+        array->assign(contacts, 0.0);
+    return gaps;
+}
+
 ContactState make_contact_state(const StringSizes& sizes) {
     const std::size_t n = padded(sizes.contacts);
     ContactState contact;
+    static_cast<ContactGaps&>(contact) = make_contact_gaps(n);
     for (auto* array :
-         {&contact.gap, &contact.gap_before, &contact.height, &contact.height_before,
-          &contact.height_rise_before, &contact.height_rate, &contact.height_target, &contact.impulse,
-          &contact.frame_impulse, &contact.gap_free, &contact.gap_rate, &contact.offset, &contact.residual}) {
+         {&contact.height, &contact.height_before, &contact.height_rise_before, &contact.height_rate,
+          &contact.height_target, &contact.gap_free, &contact.gap_rate, &contact.offset, &contact.residual}) {
         array->assign(n, 0.0);
     }
     contact.moving_steps.assign(n, 0);
-    contact.candidates.assign(n, 0);
-    contact.near.assign(n, 0);
+    contact.candidates.allocate(n);
+    contact.near.allocate(n);
     contact.is_near.assign(n, 0);
     return contact;
 }
@@ -37,32 +45,51 @@ void place_obstacles(const StringModel& model, ContactState& contact) {
     }
     std::fill(contact.moving_steps.begin(), contact.moving_steps.end(), std::uint64_t{0});
     contact.moving_count = 0;
-    contact.candidate_count = 0;
+    contact.candidates.clear();
 }
 
-CertificateState make_certificate_state(const StringSizes& sizes) {
-    CertificateState bounds;
+GapBounds make_gap_bounds(const StringSizes& sizes) {
+    GapBounds bounds;
     for (auto* array : {&bounds.speed, &bounds.detour, &bounds.extent}) array->assign(sizes.stride, 0.0);
     for (auto* array : {&bounds.group_speed, &bounds.group_detour, &bounds.group_clearance,
                         &bounds.group_odometer, &bounds.group_push, &bounds.group_margin}) {
         array->assign(sizes.groups, 0.0);
     }
-    for (auto* array : {&bounds.open_until, &bounds.margin, &bounds.frame_gap, &bounds.frame_end_gap}) {
+    for (auto* array : {&bounds.open_until, &bounds.margin, &bounds.frame_gap, &bounds.frame_end_gap})
         array->assign(sizes.contacts, 0.0);
-    }
-    bounds.certified_at.assign(sizes.contacts, 0);
-    LookoutState& lookout = bounds.lookout;
-    for (auto* array : {&lookout.displacement, &lookout.velocity}) array->assign(lookout_modes, 0.0);
-    for (auto* array : {&lookout.group_detour, &lookout.group_overtones}) array->assign(sizes.groups, 0.0);
-    for (auto* array : {&lookout.gap, &lookout.gap_end}) array->assign(sizes.contacts, 0.0);
-    lookout.gap_at.assign(sizes.contacts, 0);
-    for (auto* list : {&lookout.watched, &lookout.unknown}) list->assign(sizes.contacts, 0);
-    bounds.frame_gap_at.assign(sizes.contacts, 0);
-    bounds.expired.assign(sizes.contacts, 0);
-    for (auto* list : {&bounds.expired_groups, &bounds.missing_groups}) list->assign(sizes.groups, 0);
-    for (auto* flags : {&bounds.group_has_detour, &bounds.group_has_clearance, &bounds.group_has_lookout})
-        flags->assign(sizes.groups, 0);
     return bounds;
+}
+
+Validity make_validity(const StringSizes& sizes) {
+    Validity validity;
+    for (auto* flags :
+         {&validity.group_has_detour, &validity.group_has_clearance, &validity.group_has_forecast}) {
+        flags->assign(sizes.groups, 0);
+    }
+    for (auto* stamps : {&validity.frame_gap_at, &validity.certified_at})
+        stamps->assign(sizes.contacts, unknown_frame);
+    return validity;
+}
+
+ForecastState make_forecast_state(const StringSizes& sizes) {
+    ForecastState forecast;
+    for (auto* array : {&forecast.displacement, &forecast.velocity}) array->assign(forecast_modes, 0.0);
+    for (auto* array : {&forecast.group_detour, &forecast.group_overtones}) array->assign(sizes.groups, 0.0);
+    for (auto* array : {&forecast.gap, &forecast.gap_end}) array->assign(sizes.contacts, 0.0);
+    forecast.gap_at.assign(sizes.contacts, unknown_frame);
+    for (auto* list : {&forecast.watched, &forecast.unknown}) list->allocate(sizes.contacts);
+    return forecast;
+}
+
+CertificateState make_certificate_state(const StringSizes& sizes) {
+    CertificateState certificate;
+    certificate.bounds = make_gap_bounds(sizes);
+    certificate.validity = make_validity(sizes);
+    certificate.forecast = make_forecast_state(sizes);
+    for (auto* list : {&certificate.expired, &certificate.unknown_gaps}) list->allocate(sizes.contacts);
+    for (auto* list : {&certificate.expired_groups, &certificate.missing_groups})
+        list->allocate(sizes.groups);
+    return certificate;
 }
 
 NearState make_near_state(const StringSizes& sizes) {
@@ -76,10 +103,9 @@ NearState make_near_state(const StringSizes& sizes) {
     near.force_rows.assign(2 * sizes.stride, 0.0);
     near.displacement.assign(sizes.stride, 0.0);
     near.velocity.assign(sizes.stride, 0.0);
-    for (auto* array : {&near.gap, &near.gap_before, &near.impulse})
-        array->assign(padded(sizes.contacts), 0.0);
+    near.start.gaps = make_contact_gaps(padded(sizes.contacts));
     near.rows.assign(count, nullptr);
-    near.struck.assign(count, 0);
+    near.struck.allocate(count);
     return near;
 }
 
@@ -90,13 +116,13 @@ ShortFrameState make_short_frame_state(const StringSizes& sizes) {
     frame.velocities.assign(sizes.short_steps * sizes.stride, 0.0);
     frame.rates.assign(sizes.short_steps * contacts, 0.0);
     frame.impulses.assign(sizes.short_steps * contacts, 0.0);
-    frame.struck.assign(contacts, 0);
+    frame.struck.allocate(contacts);
     frame.step_response.assign(sizes.short_steps * sizes.contacts * contacts, 0.0);
     frame.response_known.assign(sizes.contacts, 0);
     frame.table.values.assign(contacts * contacts, 0.0);
     for (auto* array : {&frame.table.sign, &frame.table.scale, &frame.table.solution})
         array->assign(contacts, 0.0);
-    for (auto* list : {&frame.table.active, &frame.table.kept}) list->assign(contacts, 0);
+    for (auto* list : {&frame.table.active, &frame.table.kept}) list->allocate(contacts);
     return frame;
 }
 
@@ -169,14 +195,16 @@ SceneState make_state(const SceneModel& model, Metering metering, Skipping skipp
 }
 
 void reset(const StringModel& model, StringState& state) noexcept {
+    JAWARI_ASSERT(state.displacement.size() >= model.stride);
+    JAWARI_ASSERT(state.contact.gap.size() >= model.contact_count);
     std::copy(model.initial_displacement.begin(), model.initial_displacement.end(),
               state.displacement.begin());
     std::copy(model.initial_velocity.begin(), model.initial_velocity.end(), state.velocity.begin());
     clear_excitation(state);
     state.frame = 0;
     state.leaves_obstacles = false;
-    state.certificate.strongest_speed = 0;
-    state.certificate.strongest_extent = 0;
+    state.certificate.bounds.strongest_speed = 0;
+    state.certificate.bounds.strongest_extent = 0;
     place_obstacles(model, state.contact);
     notice_change(model, state);
     state.counters = {};
@@ -202,6 +230,7 @@ void notice_change(const StringModel& model, StringState& state) noexcept {
     choose_all_contacts(model, state);
     place_gaps(model, state);
     forget_bounds(state);
+    state.contact.stepping_in_frame = state.frame;
 }
 
 void leave_obstacles(StringState& state) noexcept {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/assert.h"
 #include "string/broad_phase/gap_bounds.h"
 #include "string/broad_phase/gap_certificate.h"
 #include "string/contact/contact_stage.h"
@@ -14,7 +15,8 @@
 namespace jawari {
 namespace {
 
-/// force_rows and force_impulses <- the excitation of the coming frame, for unit mobility's run over modes.
+/// force_rows and force_impulses <- the excitation of the coming frame, for a run over modes of unit
+/// mobility.
 void drive_by_excitation(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
     const ExcitationState& excitation = state.excitation;
@@ -38,10 +40,10 @@ void run_free(const StringModel& model, StringState& state, std::size_t first) {
     std::copy(state.velocity.begin(), state.velocity.end(), near.velocity.begin());
     kernels::ModeRun run = kernels::frame_run(model);
     run.modes = state.active_modes;
-    for (std::size_t i = first; i < contact.near_count; ++i) {
+    for (std::size_t i = first; i < contact.near.size(); ++i) {
         near.rows[i] = model.contact_rows.data() + contact.near[i] * model.stride;
     }
-    run.probes = contact.near_count - first;
+    run.probes = contact.near.size() - first;
     run.probe_rows = near.rows.data() + first;
     run.rates = near.rates_free.data() + first * model.response_stride;
     run.rate_stride = model.response_stride;
@@ -60,69 +62,56 @@ void run_free(const StringModel& model, StringState& state, std::size_t first) {
     kernels::run_modes(run);
 }
 
-/// What must be as it was if the frame is solved once more with more contacts.
 void save_start(StringState& state) {
-    NearState& near = state.near_frame;
-    near.gap = state.contact.gap;
-    near.gap_before = state.contact.gap_before;
-    near.impulse = state.contact.impulse;
-    near.left_open = state.contact.left_open;
-    near.counters = state.counters;
+    state.near_frame.start.gaps = state.contact;  // the part of it that is a ContactGaps
+    state.near_frame.start.counters = state.counters;
 }
 
 void restore_start(StringState& state) {
-    const NearState& near = state.near_frame;
-    state.contact.gap = near.gap;
-    state.contact.gap_before = near.gap_before;
-    state.contact.impulse = near.impulse;
-    state.contact.left_open = near.left_open;
-    state.counters = near.counters;
-    std::fill(state.contact.frame_impulse.begin(), state.contact.frame_impulse.end(), 0.0);
+    static_cast<ContactGaps&>(state.contact) = state.near_frame.start.gaps;
+    state.counters = state.near_frame.start.counters;
 }
 
 /// The row of NearState::impulses that collects the impulses of a contact.
 double* impulses_of(const StringModel& model, NearState& near, std::uint32_t contact) {
-    const auto end = near.struck.begin() + static_cast<std::ptrdiff_t>(near.struck_count);
-    const auto found = std::find(near.struck.begin(), end, contact);
+    const auto found = std::find(near.struck.begin(), near.struck.end(), contact);
     const auto slot = static_cast<std::size_t>(found - near.struck.begin());
     double* impulses = near.impulses.data() + slot * model.response_stride;
-    if (found == end) {
-        near.struck[near.struck_count++] = contact;
+    if (slot == near.struck.size()) {
+        near.struck.push(contact);
         std::fill_n(impulses, model.response_stride, 0.0);
     }
     return impulses;
 }
 
-/// Impulses of the step that are positive, kept for the modes.
+/// Keeps the step's positive impulses for run_impulses().
 void keep_impulses(const StringModel& model, StringState& state, std::size_t n) {
     const ContactState& contact = state.contact;
-    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
-        const auto struck = contact.candidates[i];
+    for (const auto struck : contact.candidates) {
         if (contact.impulse[struck] > 0)
             impulses_of(model, state.near_frame, struck)[n] = contact.impulse[struck];
     }
 }
 
-/// Adds what the step's impulses do to the rates of all later steps, over time for each near contact.
+/// Adds the responses to the step's impulses to the rates of all later steps, contact by contact.
 void spread_over_time(const StringModel& model, StringState& state, std::size_t n) {
     const ContactState& contact = state.contact;
-    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
-        const auto struck = contact.candidates[i];
+    for (const auto struck : contact.candidates) {
         const double impulse = contact.impulse[struck];
         if (impulse <= 0) continue;
-        kernels::spread_impulse(model, {contact.near.data(), contact.near_count}, {struck, impulse, n},
+        kernels::spread_impulse(model, contact.near.span(), {struck, impulse, n},
                                 state.near_frame.rates.data());
     }
 }
 
-/// The same over all contacts for each later step.
+/// Adds the responses to the step's impulses to the rates of all later steps, step by step.
 void spread_over_contacts(const StringModel& model, StringState& state, std::size_t n) {
     const ContactState& contact = state.contact;
     const std::size_t stride = model.contact_stride;
     const std::size_t step = model.contact_count * stride;
     for (std::size_t later = n + 1; later < model.steps_per_frame; ++later) {
-        kernels::add_rows(contact.candidates.data(), contact.candidate_count, contact.impulse.data(), stride,
-                          stride, model.step_response.data() + (later - n) * step,
+        kernels::add_rows(contact.candidates.data(), contact.candidates.size(), contact.impulse.data(),
+                          stride, stride, model.step_response.data() + (later - n) * step,
                           state.near_frame.rates.data() + later * stride);
     }
 }
@@ -132,7 +121,7 @@ void predict_near_gaps(const StringModel& model, StringState& state, std::size_t
     ContactState& contact = state.contact;
     const AlignedVector<double>& rates = state.near_frame.rates;
     const bool by_step = !model.step_response.empty();
-    for (std::size_t i = 0; i < contact.near_count; ++i) {
+    for (std::size_t i = 0; i < contact.near.size(); ++i) {
         const auto c = contact.near[i];
         const double rate =
             by_step ? rates[n * model.contact_stride + c] : rates[i * model.response_stride + n];
@@ -145,21 +134,21 @@ void begin_rates(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
     const ContactState& contact = state.contact;
     if (model.step_response.empty()) {
-        std::copy_n(near.rates_free.begin(), contact.near_count * model.response_stride, near.rates.begin());
+        std::copy_n(near.rates_free.begin(), contact.near.size() * model.response_stride, near.rates.begin());
         return;
     }
-    for (std::size_t i = 0; i < contact.near_count; ++i) {
+    for (std::size_t i = 0; i < contact.near.size(); ++i) {
         for (std::size_t n = 0; n < model.steps_per_frame; ++n)
             near.rates[n * model.contact_stride + contact.near[i]] =
                 near.rates_free[i * model.response_stride + n];
     }
 }
 
-/// The causal loop: one small complementarity problem a step.
+/// Solves one complementarity problem a step, in the order of time.
 void solve_in_contact_space(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
     begin_rates(model, state);
-    near.struck_count = 0;
+    near.struck.clear();
     near.first_impulse = model.steps_per_frame;
     for (std::size_t n = 0; n < model.steps_per_frame; ++n) {
         predict_near_gaps(model, state, n);
@@ -179,42 +168,37 @@ void solve_in_contact_space(const StringModel& model, StringState& state) {
     }
 }
 
-/// Contacts that the frame's impulses may have pushed in become near; true if there are any.
+/// Makes those contacts near that the frame's impulses may have pushed in; true if there are any.
 bool admit_pushed(const StringModel& model, StringState& state) {
     ContactState& contact = state.contact;
-    CertificateState& bounds = state.certificate;
-    const NearState& near = state.near_frame;
-    const std::vector<std::size_t>& begin = model.certificate.group_begin;
-    const std::size_t before = contact.near_count;
-    for (std::size_t g = 0; g + 1 < begin.size(); ++g) {
+    GapBounds& bounds = state.certificate.bounds;
+    const std::size_t before = contact.near.size();
+    for (std::size_t g = 0; g < group_count(model); ++g) {
+        const double* push_by = model.certificate.push.data() + g * model.contact_count;
         double push = 0;
-        for (std::size_t i = 0; i < near.struck_count; ++i) {
-            const auto struck = near.struck[i];
-            push += model.certificate.push[g * model.contact_count + struck] * contact.frame_impulse[struck];
-        }
+        for (const auto struck : state.near_frame.struck)
+            push += push_by[struck] * contact.frame_impulse[struck];
         bounds.group_push[g] = push;
         if (bounds.group_margin[g] > push) continue;
-        for (std::size_t c = begin[g]; c < begin[g + 1]; ++c) {
-            if (contact.is_near[c] != 0 || bounds.margin[c] > push) continue;
-            contact.near[contact.near_count++] = static_cast<std::uint32_t>(c);
-            contact.is_near[c] = 1;
+        for (const std::size_t c : contacts_of(model, g)) {
+            if (contact.is_near[c] == 0 && !(bounds.margin[c] > push)) make_near(contact, c);
         }
     }
-    return contact.near_count > before;
+    return contact.near.size() > before;
 }
 
-/// The frame's end receives the response of the modes to the impulses, run for unit mobility and scaled at
-/// the end.
+/// Adds the response of the modes to the impulses to the frame's end. It is computed for unit mobility and
+/// scaled at the end.
 void run_impulses(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
     state.active_modes = model.stride;
     std::fill(near.displacement.begin(), near.displacement.end(), 0.0);
     std::fill(near.velocity.begin(), near.velocity.end(), 0.0);
     kernels::ModeRun run = kernels::frame_run(model);
-    for (std::size_t i = 0; i < near.struck_count; ++i) {
+    for (std::size_t i = 0; i < near.struck.size(); ++i) {
         near.rows[i] = model.contact_rows.data() + near.struck[i] * model.stride;
     }
-    run.drivers = near.struck_count;
+    run.drivers = near.struck.size();
     run.driver_rows = near.rows.data();
     run.impulses = near.impulses.data() + near.first_impulse;
     run.impulse_stride = model.response_stride;
@@ -231,12 +215,13 @@ void run_impulses(const StringModel& model, StringState& state) {
 }  // namespace
 
 bool solve_near_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    JAWARI_ASSERT(!model.response.empty() && state.near_frame.rates.size() >= model.response_stride);
     ContactState& contact = state.contact;
     std::size_t known = 0;
     place_gaps(model, state);
     do {
         run_free(model, state, known);
-        known = contact.near_count;
+        known = contact.near.size();
         save_start(state);
         solve_in_contact_space(model, state);
         if (!admit_pushed(model, state)) break;
@@ -245,8 +230,8 @@ bool solve_near_frame(const StringModel& model, StringState& state) JAWARI_REALT
     } while (true);
     state.counters.steps += model.steps_per_frame;
     state.excitation.elapsed += model.steps_per_frame;
-    if (state.near_frame.struck_count == 0) return false;
-    state.certificate.outdated = true;
+    if (state.near_frame.struck.empty()) return false;
+    state.certificate.validity.outdated = true;
     run_impulses(model, state);
     return true;
 }

@@ -1,5 +1,5 @@
-// A frame in contact space: the free gap rates of the near contacts come from one run over the modes, their
-// impulses from a causal loop over the contacts alone, and the modes receive the impulses in a second run.
+// A frame solved in contact space. One run over the modes computes the free gap rates of the near contacts, a
+// loop over the steps solves for their impulses, and a second run over the modes applies the impulses.
 #pragma once
 
 #include "jawari/detail/string_model.h"
@@ -8,7 +8,7 @@
 
 namespace jawari {
 
-/// The frame with the contacts in state.contact.near, from the state at its start. displacement_flown,
+/// Solves the frame with the contacts in state.contact.near from the state at its start. displacement_flown,
 /// velocity_flown hold its end in free flight and receive its end with impulses. Returns true if impulses
 /// happened.
 bool solve_near_frame(const StringModel& model, StringState& state) JAWARI_REALTIME;

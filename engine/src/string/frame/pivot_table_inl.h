@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "jawari/detail/string_model.h"
 #include "jawari/detail/string_state.h"
@@ -40,12 +41,12 @@ HWY_INLINE void for_contacts(std::size_t stride, const Work& work) {
 
 /// sum += sum of weights[c'] rows[c'] over the listed contacts c', for the contacts from c on
 template <std::size_t vectors>
-HWY_INLINE void add_rows(const std::uint32_t* list, std::size_t count, const double* weights,
-                         const double* rows, std::size_t stride, std::size_t c, Vec (&sum)[vectors]) {
+HWY_INLINE void add_rows(std::span<const std::uint32_t> list, const double* weights, const double* rows,
+                         std::size_t stride, std::size_t c, Vec (&sum)[vectors]) {
     const Lanes d;
-    for (std::size_t s = 0; s < count; ++s) {
-        const double* row = rows + list[s] * stride + c;
-        const Vec weight = hn::Set(d, weights[list[s]]);
+    for (const std::size_t other : list) {
+        const double* row = rows + other * stride + c;
+        const Vec weight = hn::Set(d, weights[other]);
         for (std::size_t i = 0; i < vectors; ++i)
             sum[i] = hn::MulAdd(hn::Load(d, row + i * hn::Lanes(d)), weight, sum[i]);
     }
@@ -55,15 +56,11 @@ inline void note_pivot(const StringModel& model, PivotTable& table, std::size_t 
     table.pivots += 1;
     table.sign[j] = enters ? 1 : -1;
     table.scale[j] = enters ? model.compliance[j * model.contact_stride + j] : 1;
-    const auto contact = static_cast<std::uint32_t>(j);
     if (enters) {
-        table.active[table.active_count++] = contact;
-        return;
+        table.active.push(j);
+    } else {
+        table.active.remove(static_cast<std::uint32_t>(j));
     }
-    const auto end = table.active.begin() + static_cast<std::ptrdiff_t>(table.active_count);
-    const auto at = std::find(table.active.begin(), end, contact);
-    std::copy(at + 1, end, at);
-    table.active_count -= 1;
 }
 
 /// row <- row + factor pivot_row, but at contact j `at_pivot`. Whole vectors are stored, so that they can be
@@ -119,16 +116,15 @@ inline void begin_table(const StringModel& model, PivotTable& table) {
     std::fill(table.sign.begin(), table.sign.end(), -1.0);
     std::fill(table.scale.begin(), table.scale.end(), 1.0);
     table.of = model.compliance.data();
-    table.active_count = 0;
+    table.active.clear();
     table.pivots = 0;
 }
 
 /// Made anew for the contacts that are active, without the rounding that pivots have gathered.
 inline void remake_table(const StringModel& model, PivotTable& table) {
-    const std::size_t count = table.active_count;
-    std::copy_n(table.active.begin(), count, table.kept.begin());
+    table.kept = table.active;
     begin_table(model, table);
-    for (std::size_t i = 0; i < count; ++i) sweep(model, table, table.kept[i]);
+    for (const auto c : table.kept) sweep(model, table, c);
     table.pivots = 0;
 }
 
@@ -144,7 +140,7 @@ struct SolveTable {
         const Lanes d;
         Vec sum[vectors];
         for (std::size_t i = 0; i < vectors; ++i) sum[i] = hn::Zero(d);
-        add_rows(table.active.data(), table.active_count, offset, table.values.data(), stride, c, sum);
+        add_rows(table.active.span(), offset, table.values.data(), stride, c, sum);
         for (std::size_t i = 0; i < vectors; ++i) {
             const std::size_t at = c + i * hn::Lanes(d);
             const Vec sign = hn::Load(d, table.sign.data() + at);

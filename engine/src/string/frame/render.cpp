@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "base/assert.h"
 #include "jawari/scene/energy.h"
+#include "string/broad_phase/gap_bounds.h"
 #include "string/frame/frame.h"
 #include "string/kernels/flight.h"
 
@@ -57,6 +59,7 @@ void render_string(const StringModel& model, StringState& state, std::span<doubl
 
 double probe_value(const StringModel& model, const StringState& state, std::size_t probe,
                    double frame_s) JAWARI_REALTIME {
+    JAWARI_ASSERT(probe < model.probes.size() && frame_s > 0);
     const Quantity quantity = model.probes[probe].quantity;
     double value = 0;
     switch (quantity) {
@@ -82,20 +85,22 @@ double probe_value(const StringModel& model, const StringState& state, std::size
 
 void advance_frames(const StringModel& model, StringState& state, std::span<const Reading> readings,
                     ReadAt when, std::size_t frames) JAWARI_REALTIME {
+    JAWARI_ASSERT(state.displacement.size() >= model.stride);
     for (std::size_t n = 0; n < frames;) {
         if (sleeps_on(state)) {
             for (const Reading& reading : readings) std::fill_n(reading.out + n, frames - n, 0.0);
             pass_asleep(model, state, frames - n);
             return;
         }
-        const std::size_t flying = std::min(frames_to_fly(model, state), frames - n);
-        if (flying > 0) {
+        const BroadPhaseAnswer answer = plan_frames(model, state);
+        if (answer == BroadPhaseAnswer::Planned) {
+            const std::size_t flying = std::min<std::size_t>(planned_frames(state), frames - n);
             fly_ahead(model, state, readings, when, n, flying);
             n += flying;
             continue;
         }
         if (when == ReadAt::Start) read_all(state, readings, n);
-        look_at_frame(model, state);
+        cross_frame(model, state, answer);
         if (when == ReadAt::End) read_all(state, readings, n);
         ++n;
     }
@@ -103,6 +108,8 @@ void advance_frames(const StringModel& model, StringState& state, std::span<cons
 
 void render(const SceneModel& model, SceneState& state, std::span<double* const> outputs,
             std::size_t frames) JAWARI_REALTIME {
+    JAWARI_ASSERT(state.strings.size() == model.strings.size());
+    JAWARI_ASSERT(outputs.size() >= model.probe_count);
     std::size_t first_output = 0;
     for (std::size_t s = 0; s < model.strings.size(); ++s) {
         const StringModel& string = model.strings[s];
@@ -116,6 +123,7 @@ void render(const SceneModel& model, SceneState& state, std::span<double* const>
 
 void move_contact(const StringModel& model, StringState& state, std::size_t contact, double height_m,
                   std::size_t steps) JAWARI_REALTIME {
+    JAWARI_ASSERT(contact < model.contact_count);
     ContactState& moved = state.contact;
     const double sign = model.contact_side[contact] == Side::Below ? 1.0 : -1.0;
     const double distance = sign * height_m - moved.height[contact];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/assert.h"
 #include "string/broad_phase/forecast.h"
 #include "string/broad_phase/gap_bounds.h"
 #include "string/broad_phase/gap_certificate.h"
@@ -13,11 +14,11 @@
 namespace jawari {
 namespace {
 
-/// Gaps go on from frame to frame; this often they are taken from the modes again, so that rounding does not
-/// gather.
+/// Gaps continue from frame to frame. After this many frames they are computed from the modes again, so that
+/// rounding does not accumulate.
 constexpr std::uint64_t gap_period = 64;
 
-/// contact.gap and gap_before of all contacts at the frame's start.
+/// Computes contact.gap and gap_before of all contacts at the frame's start.
 void place_all_gaps(const StringModel& model, StringState& state) {
     ContactState& contact = state.contact;
     choose_all_contacts(model, state);
@@ -43,16 +44,18 @@ void set_short_frames(StringModel& model) {
 }
 
 bool solve_short_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    JAWARI_ASSERT(has_short_frames(model));
+    JAWARI_ASSERT(state.short_frame.rates.size() >= model.steps_per_frame * model.contact_stride);
     ShortFrameState& frame = state.short_frame;
     if (frame.gaps_at != state.frame || state.frame % gap_period == 0) place_all_gaps(model, state);
     bool finite = kernels::run_freely(model, state);
     finite = kernels::solve_steps(model, state) && finite;
-    std::vector<double>& claims = state.certificate.open_until;  // none, until note_short_frame()
-    std::fill(claims.begin(), claims.end(), -std::numeric_limits<double>::infinity());
-    const bool struck = frame.struck_count > 0;
+    std::vector<double>& open_until = state.certificate.bounds.open_until;  // until note_short_frame()
+    std::fill(open_until.begin(), open_until.end(), -std::numeric_limits<double>::infinity());
+    const bool struck = !frame.struck.empty();
     if (struck) {
         state.active_modes = model.stride;
-        state.certificate.outdated = true;
+        state.certificate.validity.outdated = true;
         forget_low_gaps(state);
         finite = kernels::add_response(model, state) && finite;
     }
@@ -70,10 +73,11 @@ void forget_responses(StringState& state) JAWARI_REALTIME {
 }
 
 void note_short_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    CertificateState& bounds = state.certificate;
+    JAWARI_ASSERT(state.short_frame.gaps_at == state.frame);
+    GapBounds& bounds = state.certificate.bounds;
     for (std::size_t c = 0; c < model.contact_count; ++c) {
         bounds.frame_gap[c] = state.contact.gap[c];
-        bounds.frame_gap_at[c] = state.frame;
+        state.certificate.validity.frame_gap_at[c] = state.frame;
         bounds.open_until[c] = bounds.group_odometer[group_of(model, c)] + state.contact.gap[c];
     }
 }

@@ -1,5 +1,5 @@
-// Frames of few steps over few contacts: everything is evaluated, all contacts side by side, which costs less
-// than finding out what need not be.
+// Short frames: few steps over few contacts. All contacts are evaluated side by side, which costs less than a
+// broad phase.
 #pragma once
 
 #include <cstdint>
@@ -10,25 +10,27 @@
 
 namespace jawari {
 
-/// Rates of at most so many contacts (padded) times steps.
+/// Most contacts (padded) times steps of a short frame.
 inline constexpr std::size_t largest_short_frame = 256;
 
-/// Whether frames of the model are short.
+/// Whether the model's frames can be solved as short ones.
 inline bool has_short_frames(const StringModel& model) {
     return !model.contact_columns.empty();
 }
 
-/// Fills model.contact_columns where frames are short. Needs the step responses.
+/// Fills model.contact_columns if the model's frames can be solved as short ones. Needs the step responses.
 void set_short_frames(StringModel& model);
 
-/// The coming frame, from the state at its start: displacement_flown, velocity_flown <- its end,
-/// certificate.struck <- whether impulses happened. Returns false if the state is not finite.
+/// Solves the coming frame from the state at its start: displacement_flown, velocity_flown <- its end,
+/// certificate.struck <- whether impulses happened. Returns false if the state is not finite. Precondition:
+/// has_short_frames(model).
 bool solve_short_frame(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
-/// The string's tension has changed: responses that were found at the old one no longer hold.
+/// Forgets the responses that were found at the string's old tension.
 void forget_responses(StringState& state) JAWARI_REALTIME;
 
-/// What the last short frame knows of all gaps goes to the certificate, for frames that follow.
+/// Hands the gaps that the last short frame has computed on to the broad phase. Precondition:
+/// short_frame.gaps_at == state.frame.
 void note_short_frame(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
 }  // namespace jawari

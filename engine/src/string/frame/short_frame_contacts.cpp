@@ -8,7 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <span>
 
 #include "string/contact/contact_stage.h"
 #include "string/frame/pivot_table_inl.h"
@@ -21,7 +21,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Lanes = hn::ScalableTag<double>;
 using Vec = hn::Vec<Lanes>;
 
-/// A solution whose residual is above this share of the worst violation is left to the general solver.
+/// The general solver takes over if the residual exceeds this share of the worst violation.
 constexpr double largest_relative_residual = 1e-9;
 
 /// min(0, y_before + excused), impact_law.h
@@ -48,10 +48,7 @@ HWY_INLINE double predict(const StringModel& model, StringState& state, std::siz
 }
 
 /// Contacts with impulses in a step.
-struct Struck {
-    const std::uint32_t* list;
-    std::size_t count;
-};
+using Struck = std::span<const std::uint32_t>;
 
 /// residual <- offset + A lambda
 struct SumResiduals {
@@ -65,8 +62,7 @@ struct SumResiduals {
         const std::size_t lanes = hn::Lanes(d);
         Vec sum[vectors];
         for (std::size_t i = 0; i < vectors; ++i) sum[i] = hn::Load(d, contact.offset.data() + c + i * lanes);
-        add_rows(struck.list, struck.count, contact.impulse.data(), model.compliance.data(),
-                 model.contact_stride, c, sum);
+        add_rows(struck, contact.impulse.data(), model.compliance.data(), model.contact_stride, c, sum);
         for (std::size_t i = 0; i < vectors; ++i)
             hn::Store(sum[i], d, contact.residual.data() + c + i * lanes);
     }
@@ -86,8 +82,7 @@ HWY_INLINE double take_impulses(const StringModel& model, StringState& state) {
         if constexpr (corrects) impulse = hn::Add(impulse, hn::Load(d, contact.impulse.data() + c));
         hn::Store(hn::IfThenElseZero(active, hn::Max(impulse, zero)), d, contact.impulse.data() + c);
     }
-    for_contacts(model.contact_stride,
-                 SumResiduals{model, contact, {table.active.data(), table.active_count}});
+    for_contacts(model.contact_stride, SumResiduals{model, contact, table.active.span()});
     Vec largest = zero;
     for (std::size_t c = 0; c < model.contact_stride; c += hn::Lanes(d)) {
         const auto active = hn::Gt(hn::Load(d, table.sign.data() + c), zero);
@@ -136,26 +131,20 @@ bool solve_by_pivots(const StringModel& model, StringState& state, double lowest
 void solve_in_general(const StringModel& model, StringState& state) {
     ContactState& contact = state.contact;
     state.short_frame.table.of = nullptr;
-    contact.candidate_count = model.contact_count;
-    std::iota(contact.candidates.begin(),
-              contact.candidates.begin() + static_cast<std::ptrdiff_t>(model.contact_count), 0U);
+    contact.candidates.fill_to(model.contact_count);
     solve_impulses(model, state);
-    std::size_t struck = 0;
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
-        if (contact.impulse[c] > 0) contact.candidates[struck++] = static_cast<std::uint32_t>(c);
-    }
-    contact.candidate_count = struck;
-    for_contacts(model.contact_stride, SumResiduals{model, contact, {contact.candidates.data(), struck}});
+    contact.candidates.filter([&](std::uint32_t c) { return contact.impulse[c] > 0; });
+    for_contacts(model.contact_stride, SumResiduals{model, contact, contact.candidates.span()});
 }
 
 /// The step's impulses and the contacts that have them.
 Struck find_impulses(const StringModel& model, StringState& state, double lowest) {
     if (solve_by_pivots(model, state, lowest)) {
         state.counters.solves += 1;
-        return {state.short_frame.table.active.data(), state.short_frame.table.active_count};
+        return state.short_frame.table.active.span();
     }
     solve_in_general(model, state);
-    return {state.contact.candidates.data(), state.contact.candidate_count};
+    return state.contact.candidates.span();
 }
 
 /// short_frame.impulses of step n <- the step's impulses, which add to those of the frame.
@@ -174,12 +163,9 @@ HWY_INLINE void keep_impulses(const StringModel& model, StringState& state, std:
 
 /// `struck` <- the contacts that had impulses in the frame.
 void list_struck(const StringModel& model, StringState& state) {
-    ShortFrameState& frame = state.short_frame;
-    frame.struck_count = 0;
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
-        frame.struck[frame.struck_count] = static_cast<std::uint32_t>(c);
-        frame.struck_count += state.contact.frame_impulse[c] > 0 ? 1 : 0;
-    }
+    IndexList& struck = state.short_frame.struck;
+    for (std::size_t c = 0; c < model.contact_count; ++c)
+        struck.push_if(state.contact.frame_impulse[c] > 0, c);
 }
 
 /// rates of a later step += what the step's impulses do to them
@@ -196,7 +182,7 @@ struct SpreadImpulses {
         const std::size_t lanes = hn::Lanes(d);
         Vec sum[vectors];
         for (std::size_t i = 0; i < vectors; ++i) sum[i] = hn::Load(d, rates + c + i * lanes);
-        add_rows(struck.list, struck.count, impulse, responses, stride, c, sum);
+        add_rows(struck, impulse, responses, stride, c, sum);
         for (std::size_t i = 0; i < vectors; ++i) hn::Store(sum[i], d, rates + c + i * lanes);
     }
 };
@@ -205,8 +191,8 @@ struct SpreadImpulses {
 const double* responses_to(const StringModel& model, StringState& state, const Struck& struck) {
     if (!model.step_response.empty()) return model.step_response.data();
     const ShortFrameState& frame = state.short_frame;
-    for (std::size_t i = 0; i < struck.count; ++i) {
-        if (frame.response_known[struck.list[i]] == 0) find_response(model, state, struck.list[i]);
+    for (const auto c : struck) {
+        if (frame.response_known[c] == 0) find_response(model, state, c);
     }
     return frame.step_response.data();
 }
@@ -262,7 +248,7 @@ bool solve_steps(const StringModel& model, StringState& state) {
             lowest = accept<false>(model, contact, excused, lowest);
         }
     }
-    state.short_frame.struck_count = 0;
+    state.short_frame.struck.clear();
     if (any) list_struck(model, state);
     state.counters.candidates += model.steps_per_frame * model.contact_count;
     state.counters.worst_penetration_m =

@@ -1,4 +1,4 @@
-// A frame of few steps in contact space: all gaps side by side, one complementarity problem a step.
+// The contacts of a short frame: all gaps side by side, one complementarity problem a step.
 #pragma once
 
 #include "jawari/detail/string_model.h"
@@ -6,9 +6,9 @@
 
 namespace jawari::kernels {
 
-/// The steps of a frame whose free rates are in short_frame.rates, from contact.gap and contact.gap_before at
-/// its start to those at its end; short_frame.impulses and `struck` <- its impulses. Signorini's law.
-/// Returns false if a gap is not finite.
+/// Solves the steps of a frame whose free rates are in short_frame.rates, from contact.gap and
+/// contact.gap_before at its start to those at its end; short_frame.impulses and `struck` <- its impulses.
+/// Signorini's law. Returns false if a gap is not finite.
 bool solve_steps(const StringModel& model, StringState& state) noexcept;
 
 }  // namespace jawari::kernels

@@ -197,8 +197,7 @@ HWY_INLINE void sum_impulses(const StringModel& model, const StringState& state,
     for (std::size_t j = 0; j < steps; ++j) {
         for (std::size_t i = 0; i < vectors; ++i) drive[j][i] = hn::Zero(d);
     }
-    for (std::size_t s = 0; s < frame.struck_count; ++s) {
-        const std::size_t c = frame.struck[s];
+    for (const std::size_t c : frame.struck) {
         const double* row = model.contact_rows.data() + c * model.stride + k;
         const double* impulses = frame.impulses.data() + n * model.contact_stride + c;
         Vec shape[vectors];

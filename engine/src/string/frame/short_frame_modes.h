@@ -1,4 +1,4 @@
-// The modes of a string through a frame of few steps, with the rates of all its gaps at each of them.
+// The modes of a short frame, with the rates of all gaps at each step.
 #pragma once
 
 #include "jawari/detail/string_model.h"

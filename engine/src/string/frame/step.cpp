@@ -1,16 +1,18 @@
-// One contact step, stage by stage (DESIGN of the stages: docs/engine/model.md, "The time step").
+// One contact step, stage by stage (docs/engine/model.md, "The time step").
 #include <algorithm>
 
+#include "base/assert.h"
 #include "jawari/scene/render.h"
 #include "string/broad_phase/pushed_contacts.h"
 #include "string/contact/contact_stage.h"
+#include "string/frame/step.h"
 #include "string/kernels/mode_sums.h"
 #include "string/state/metering.h"
 
 namespace jawari {
 namespace {
 
-/// velocity_before <- v; its old storage receives the step's new velocity.
+/// velocity_before <- v. The old storage of velocity_before receives the step's new velocity.
 void remember(const StringModel& model, StringState& state) {
     state.velocity.swap(state.velocity_before);
     if (state.metering == Metering::Step) {
@@ -33,7 +35,8 @@ void predict_velocity(const StringModel& model, StringState& state) {
                          model.mobility.data(), excitation.ramp.data(), state.velocity.data());
 }
 
-/// lambda of the step; contacts that it may push in become near, and the impulses are found again with them.
+/// Solves for lambda of the step. Contacts that lambda may push in become near, and the problem is solved
+/// again with them.
 void find_impulses(const StringModel& model, StringState& state) {
     state.active_modes = model.stride;  // an impulse wakes every mode
     solve_impulses(model, state);
@@ -57,7 +60,7 @@ void advance_displacement(const StringModel& model, StringState& state) {
 
 }  // namespace
 
-void step(const StringModel& model, StringState& state) JAWARI_REALTIME {
+void step_near_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME {
     remember(model, state);
     move_obstacles(state.contact);
     predict_velocity(model, state);
@@ -74,6 +77,13 @@ void step(const StringModel& model, StringState& state) JAWARI_REALTIME {
     state.excitation.elapsed += 1;
     state.counters.steps += 1;
     if (state.steps_left > 0) state.steps_left -= 1;
+}
+
+void step(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    JAWARI_ASSERT(state.displacement.size() >= model.stride);
+    // A frame leaves the gaps of most contacts unknown, and steps leave its bounds behind.
+    if (state.contact.stepping_in_frame != state.frame) notice_change(model, state);
+    step_near_contacts(model, state);
 }
 
 }  // namespace jawari

@@ -44,8 +44,7 @@ struct StepWork {
 StepWork impulse_work(const StringModel& model, const StringState& state) {
     const ContactState& contact = state.contact;
     StepWork work;
-    for (std::size_t i = 0; i < contact.candidate_count; ++i) {
-        const auto c = contact.candidates[i];
+    for (const auto c : contact.candidates) {
         const double impulse = contact.impulse[c];
         if (impulse <= 0) continue;
         const double* row = model.contact_rows.data() + c * model.stride;

@@ -2,10 +2,14 @@
 
 #include <cmath>
 
+#include "base/assert.h"
+
 namespace jawari {
 
 void hold_forces(StringState& state, const PointForces& forces, std::size_t shared, std::size_t modes,
                  bool passive) JAWARI_REALTIME {
+    JAWARI_ASSERT(shared <= modes && modes <= state.displacement.size());
+    JAWARI_ASSERT(forces.count > 0 || shared == modes);
     ExcitationState& excitation = state.excitation;
     AlignedVector<double>& held = excitation.held;
     if (excitation.modes > modes) {

@@ -14,7 +14,7 @@ inline bool is_excited(const StringState& state) {
     return state.excitation.active;
 }
 
-/// No force from now on. Nothing is written while there is none.
+/// Removes all forces. Writes nothing if there is none.
 inline void clear_excitation(StringState& state) JAWARI_REALTIME {
     ExcitationState& excitation = state.excitation;
     if (excitation.active) std::fill_n(excitation.held.begin(), excitation.modes, 0.0);
@@ -26,16 +26,16 @@ inline void clear_excitation(StringState& state) JAWARI_REALTIME {
     excitation.modes = 0;
 }
 
-/// `count` forces [N] on rows phi_k of their points [m^(-1/2)].
+/// `count` forces [N], each with the row phi_k of its point [m^(-1/2)].
 struct PointForces {
     std::size_t count = 0;
     const double* force_N = nullptr;
     const double* const* rows = nullptr;
 };
 
-/// These forces alone, held over the coming frame, on the first `modes` (padded); from `shared` on only the
-/// last of them. `passive`: together they take energy from the string over every frame in which no contact
-/// acts.
+/// Replaces the excitation by these constant forces for the next frame. All forces act on modes [0, shared);
+/// only the last force also acts on [shared, modes). Both numbers are padded. `passive`: together the forces
+/// take energy from the string over every frame in which no contact acts.
 void hold_forces(StringState& state, const PointForces& forces, std::size_t shared, std::size_t modes,
                  bool passive) JAWARI_REALTIME;
 

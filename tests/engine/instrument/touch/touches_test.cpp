@@ -316,7 +316,7 @@ DampedPluck damped_pluck(const StringModel& model, const Skipping& skipping, dou
         if (n == 1300)
             begin_finger(model, touches.exciter, 0.5, 0.01, n == 1300 ? height_m * 500 : 0.0, 40, 10);
         play_frame(model, state, touches, work);
-        played.clear_frames += state.certificate.clear ? 1U : 0U;
+        played.clear_frames += state.certificate.clear.valid ? 1U : 0U;
         for (std::size_t k = 0; k < 8; ++k) played.displacement.push_back(state.displacement[k]);
     }
     played.impulses = state.counters.impulses;

@@ -170,7 +170,7 @@ TEST(Certificate, FlightIsTheStepsTaken) {
 /// at every frame.
 void expect_true_claims(const StringModel& model, std::size_t frames, const std::string& what) {
     StringState state = make_string_state(model);
-    const CertificateState& bounds = state.certificate;
+    const GapBounds& bounds = state.certificate.bounds;
     const std::vector<std::size_t>& begin = model.certificate.group_begin;
     for (std::size_t n = 0; n < frames; ++n) {
         advance_frame(model, state);
@@ -182,10 +182,11 @@ void expect_true_claims(const StringModel& model, std::size_t frames, const std:
                            state.displacement[k];
                 }
                 const double claim = bounds.open_until[c] - bounds.group_odometer[g];
-                if (bounds.free_frames > 0) continue;  // readings hold at the end of what is planned
+                if (planned_frames(state) > 0) continue;  // readings hold at the end of what is planned
                 ASSERT_LE(claim, static_cast<double>(gap) + 1e-13)
                     << what << ", frame " << n << ", contact " << c;
-                if (bounds.outdated) continue;  // impulses may have taken the string out of the clearance
+                if (state.certificate.validity.outdated)
+                    continue;  // impulses may have taken the string out of the clearance
                 ASSERT_LE(bounds.group_clearance[g], static_cast<double>(gap) + 1e-13)
                     << what << ", frame " << n;
             }
@@ -302,7 +303,7 @@ TEST(Certificate, StrengthBoundsWhatForcesDoToEachMode) {
             hold_forces(state, {rows.size(), force_N.data(), row_of.data()}, model.stride, model.stride,
                         passive);
             add_kicks(model, state);
-            return state.certificate.kicks;
+            return state.certificate.bounds.kicks;
         };
         const KickState by_mode = kicks_of(false), by_strength = kicks_of(true);
         const auto bounds = [](double least, double bound) { return least <= bound * (1 + 1e-12); };

@@ -37,11 +37,9 @@ Struck struck_string(double growth) {
     model.certificate.push_growth = growth;
     struck.state = make_string_state(model);
     StringState& state = struck.state;
-    choose_all_contacts(model, state);
-    state.contact.near_count = 1;
-    state.contact.is_near[1] = 0;
-    state.contact.candidates[0] = 0;
-    state.contact.candidate_count = 1;
+    state.contact.near.fill_to(1);
+    state.contact.is_near = {1, 0};
+    state.contact.candidates.fill_to(1);
     state.contact.impulse[0] = 0.003;
     state.steps_left = 7;
     double speed = 0;
@@ -53,8 +51,8 @@ Struck struck_string(double growth) {
 }
 
 void set_margin(Struck& struck, double margin_m) {
-    struck.state.certificate.margin[1] = margin_m;
-    struck.state.certificate.group_margin[1] = margin_m;
+    struck.state.certificate.bounds.margin[1] = margin_m;
+    struck.state.certificate.bounds.group_margin[1] = margin_m;
 }
 
 TEST(Push, AContactThatTheImpulseMayReachJoinsTheStep) {
@@ -62,12 +60,12 @@ TEST(Push, AContactThatTheImpulseMayReachJoinsTheStep) {
         Struck out_of_reach = struck_string(growth);
         set_margin(out_of_reach, 1.001 * out_of_reach.pushed_m);
         EXPECT_FALSE(admit_pushed_contacts(out_of_reach.model, out_of_reach.state));
-        EXPECT_EQ(out_of_reach.state.contact.near_count, 1U);
+        EXPECT_EQ(out_of_reach.state.contact.near.size(), 1U);
 
         Struck in_reach = struck_string(growth);
         set_margin(in_reach, 0.999 * in_reach.pushed_m);
         EXPECT_TRUE(admit_pushed_contacts(in_reach.model, in_reach.state));
-        ASSERT_EQ(in_reach.state.contact.near_count, 2U);
+        ASSERT_EQ(in_reach.state.contact.near.size(), 2U);
         EXPECT_EQ(in_reach.state.contact.near[1], 1U);
         EXPECT_FALSE(admit_pushed_contacts(in_reach.model, in_reach.state));  // nobody is left
     }
@@ -78,7 +76,7 @@ TEST(Push, ImpulsesOfAFrameAddUp) {
     set_margin(struck, 1.5 * struck.pushed_m);
     EXPECT_FALSE(admit_pushed_contacts(struck.model, struck.state));
     charge_impulses(struck.model, struck.state);
-    EXPECT_NEAR(struck.state.certificate.group_push[1], struck.pushed_m, 1e-8 * struck.pushed_m);
+    EXPECT_NEAR(struck.state.certificate.bounds.group_push[1], struck.pushed_m, 1e-8 * struck.pushed_m);
     EXPECT_TRUE(admit_pushed_contacts(struck.model, struck.state));
 }
 

@@ -106,8 +106,7 @@ TEST(ShortMotion, TheResponseIsThatOfSteppingUnderTheImpulses) {
         test::RandomScene random(modes);
         StringState state = make_string_state(model);
         ShortFrameState& frame = state.short_frame;
-        for (std::size_t c = 0; c < contacts; c += 2)
-            frame.struck[frame.struck_count++] = static_cast<std::uint32_t>(c);
+        for (std::size_t c = 0; c < contacts; c += 2) frame.struck.push(c);
         for (std::size_t n = 0; n < steps; ++n) {
             for (std::size_t c = 0; c < contacts; c += 2)
                 frame.impulses[n * model.contact_stride + c] = 1e-4 * random.uniform(0, 1);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "jawari/jawari.h"
@@ -288,6 +289,68 @@ TEST(Step, ContactsFromAboveMirrorContactsFromBelow) {
         }
         EXPECT_GT(state_below.counters.impulses, 10U);
     }
+}
+
+/// How far the deepest contact lies inside its obstacle [m], from the modes themselves.
+double true_depth(const StringModel& model, const StringState& state) {
+    long double deepest = 0;
+    for (std::size_t c = 0; c < model.contact_count; ++c) {
+        long double gap = -static_cast<long double>(state.contact.height[c]);
+        for (std::size_t k = 0; k < model.mode_count; ++k) {
+            gap += static_cast<long double>(model.contact_rows[c * model.stride + k]) * state.displacement[k];
+        }
+        deepest = std::max(deepest, -gap);
+    }
+    return static_cast<double>(deepest);
+}
+
+/// Frames evaluate a few contacts only; steps after them must evaluate all, and frames after steps must not
+/// trust bounds from before them.
+TEST(Step, MixesWithFramesInAnyOrder) {
+    // Newton's law lets a contact in by what it moves in half a step, Signorini's by rounding.
+    for (const auto& [law, allowed_m] :
+         {std::pair{ImpactLaw::Newton, 1e-6}, std::pair{ImpactLaw::Signorini, 1e-15}}) {
+        SceneDescription scene;
+        scene.output_rate_hz = 15680;
+        scene.contact_rate_hz = 128 * 15680;
+        scene.law = law;
+        scene.strings.push_back(test::bass_string(300));
+        const StringModel model = test::compiled_string(scene);
+        StringState state = make_string_state(model);
+        std::size_t fewest = model.contact_count;
+        std::uint64_t struck = 0;
+        for (int turn = 0; turn < 12; ++turn) {
+            for (int n = 0; n < 47; ++n) advance_frame(model, state);
+            ASSERT_LE(true_depth(model, state), allowed_m) << "frames of turn " << turn;
+            fewest = std::min(fewest, state.contact.near.size());
+            const std::uint64_t before = state.counters.impulses;
+            for (int n = 0; n < 60; ++n) {
+                for (std::size_t i = 0; i < model.steps_per_frame; ++i) step(model, state);
+                ASSERT_LE(true_depth(model, state), allowed_m) << "steps of turn " << turn << ", frame " << n;
+            }
+            struck += state.counters.impulses - before;
+        }
+        EXPECT_LE(fewest, 1U) << "no frame has skipped contacts";
+        EXPECT_GT(struck, 100U) << "no steps have struck";
+    }
+}
+
+/// A motion that is being taken away meets no obstacle in steps either.
+TEST(Step, LeavesTheObstaclesWithTheString) {
+    SceneDescription scene;
+    scene.law = ImpactLaw::Signorini;
+    scene.contact_rate_hz = 48000;
+    scene.strings.push_back(test::bass_string(40));
+    const StringModel model = test::compiled_string(scene);
+    StringState state = make_string_state(model);
+    leave_obstacles(state);
+    double deepest = 0;
+    for (int n = 0; n < 4000; ++n) {
+        step(model, state);
+        deepest = std::max(deepest, true_depth(model, state));
+    }
+    EXPECT_EQ(state.counters.impulses, 0U);
+    EXPECT_GT(deepest, 1e-4);
 }
 
 }  // namespace
