@@ -3,7 +3,7 @@
 # Usage: scripts/fuzz.sh [SECONDS] [TARGET...] [--merge]
 #   SECONDS: of each target; 3600 unless told
 #   TARGET: events, scene, preset, ... (tests/fuzz/fuzz_TARGET.cpp); all unless told
-#   --merge: afterwards, inputs that reach code which the seeds do not reach are added to tests/fuzz/seeds
+#   --merge: afterwards, inputs that reach code which the seeds do not reach are added to tests/fuzz/seeds/found-TARGET.tar.xz
 # Progress goes to standard error, a line for each target that is done to standard output. The corpus is kept in
 # build/fuzz/TARGET, so that a run that is interrupted goes on where it stopped; inputs that break something are
 # build/fuzz/TARGET-crash-*, -timeout-*, -oom-*. To see one again: build/asan-ubsan/bin/fuzz_TARGET FILE
@@ -34,17 +34,26 @@ if ((${#targets[@]} == 0)); then
 fi
 export UBSAN_OPTIONS=print_stacktrace=1
 
+# pack FOLDER ARCHIVE: the same files make the same bytes, whoever packs them and when.
+pack() {
+    (export LC_ALL=C; cd "$1" && tar --sort=name --format=ustar --mtime=@0 --owner=0 --group=0 --numeric-owner --mode=644 -cf - -- *) |
+        xz -9e > "$2"
+}
+
 # Adds to the seeds as few inputs as reach all code that they do not reach, under names that say what they are from.
 merge_found() {
-    local name=$1 merged=build/fuzz/merged_$1 file
-    rm -rf "$merged"
-    mkdir -p "$merged" "tests/fuzz/seeds/$name"
+    local name=$1 merged=build/fuzz/merged_$1 found=build/fuzz/found_$1 file
+    local archive=tests/fuzz/seeds/found-$name.tar.xz
+    rm -rf "$merged" "$found"
+    mkdir -p "$merged" "$found"
+    if [[ -e $archive ]]; then tar -xf "$archive" -C "$found"; fi
     cp "build/asan-ubsan/seeds/$name"/* "$merged"
     build/asan-ubsan/bin/fuzz_"$name" -set_cover_merge=1 -use_counters=0 "$merged" "build/fuzz/$name" 2> /dev/null
     for file in "$merged"/*; do
-        [[ -e build/asan-ubsan/seeds/$name/${file##*/} ]] || cp "$file" "tests/fuzz/seeds/$name/found-${file##*/}"
+        [[ -e build/asan-ubsan/seeds/$name/${file##*/} ]] || cp "$file" "$found/found-${file##*/}"
     done
-    rm -r "$merged"
+    if [[ -n $(ls "$found") ]]; then pack "$found" "$archive"; fi
+    rm -r "$merged" "$found"
 }
 
 failed=0
