@@ -12,9 +12,16 @@ function(jawari_layer name kind folder)
   else()
     add_library(${name} ${kind} ${ARG_SOURCES})
     target_link_libraries(${name} PUBLIC ${ARG_USES} PRIVATE ${ARG_NEEDS} jawari_options)
-    add_dependencies(${name} jawari_layers)
+    if(TARGET jawari_layers)
+      add_dependencies(${name} jawari_layers)
+    endif()
   endif()
 endfunction()
+
+# Who builds the library inside another project does not change its tree.
+if(NOT PROJECT_IS_TOP_LEVEL)
+  return()
+endif()
 
 # Runs once per change of a source: an include that runs upward ends the build with its file and line.
 file(GLOB_RECURSE JAWARI_LAYERED_FILES CONFIGURE_DEPENDS

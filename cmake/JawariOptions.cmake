@@ -2,8 +2,14 @@
 add_library(jawari_options INTERFACE)
 if(MSVC)
   # /fp:precise: fused multiply-adds are written where they are wanted (kernels), never left to the compiler.
-  target_compile_options(jawari_options INTERFACE /W4 /fp:precise /utf-8)
+  target_compile_options(jawari_options INTERFACE /W4 /permissive- /Zc:__cplusplus /utf-8 /bigobj /fp:precise
+    $<$<CXX_COMPILER_ID:Clang>:/clang:-ffp-contract=off>)
+  target_compile_definitions(jawari_options INTERFACE NOMINMAX)
 else()
+  if(NOT PROJECT_IS_TOP_LEVEL)
+    # The parent may have -ffast-math; the bounds on contact rest on IEEE arithmetic.
+    target_compile_options(jawari_options INTERFACE -fno-fast-math)
+  endif()
   target_compile_options(jawari_options INTERFACE -Wall -Wextra -Wconversion -Wshadow -ffp-contract=off)
   # GCC 12 takes `"text" + std::string` for an overlapping copy (GCC bug 105651).
   target_compile_options(jawari_options INTERFACE
@@ -13,6 +19,7 @@ if(JAWARI_WARNINGS_AS_ERRORS)
   target_compile_options(jawari_options INTERFACE $<IF:$<CXX_COMPILER_ID:MSVC>,/WX,-Werror>)
 endif()
 if(JAWARI_SANITIZE)
+  # Of this folder and those below it; whoever links the library links with it (engine/CMakeLists.txt).
   add_compile_options(-fsanitize=${JAWARI_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${JAWARI_SANITIZE})
   add_compile_definitions(JAWARI_SANITIZED)  # tests that a sanitizer slows down or contradicts look at it

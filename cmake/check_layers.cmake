@@ -1,4 +1,4 @@
-# Refuses includes that run upward: cmake -D ROOT=<source folder> [-D EDGES=<csv>] -P check_layers.cmake
+# Refuses includes that run upward, and headers of the operating system outside host/base/platform_*.cpp: cmake -D ROOT=<source folder> [-D EDGES=<csv>] -P check_layers.cmake
 # The order is cmake/layers.txt. The host sees the engine's public headers alone. EDGES: also writes one row
 # "from,to,includes" per pair of layers.
 cmake_minimum_required(VERSION 3.25)
@@ -30,11 +30,19 @@ if(NOT files)
   message(FATAL_ERROR "${ROOT}: no sources in engine and host")
 endif()
 set(arrows "")
+set(system_header
+  "(sys/|linux/|net/|netinet/|arpa/|mach/|(unistd|fcntl|poll|spawn|signal|termios|sched|pthread|dlfcn|netdb|pwd|windows|winsock2|io)\\.h|csignal>)")
 foreach(file IN LISTS files)
   layer_of(${file} from)
   if(NOT from)
     message(SEND_ERROR "${file}: in no layer of cmake/layers.txt")
     continue()
+  endif()
+  if(NOT file MATCHES "^host/base/platform_[a-z0-9]+\\.cpp$")
+    file(STRINGS ${ROOT}/${file} system_includes REGEX "^[ \t]*#[ \t]*include[ \t]*<${system_header}")
+    foreach(include IN LISTS system_includes)
+      message(SEND_ERROR "${file}: ${include}; the operating system is host/base/platform.h")
+    endforeach()
   endif()
   file(STRINGS ${ROOT}/${file} includes REGEX "^[ \t]*#[ \t]*include[ \t]*[\"<]")
   foreach(include IN LISTS includes)

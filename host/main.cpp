@@ -14,6 +14,7 @@
 #endif
 #include "commands/render/render_command.h"
 #include "commands/simulate/simulate_command.h"
+#include "exit_codes.h"
 #include "jawari/version.h"
 
 namespace jawari::host {
@@ -37,7 +38,7 @@ MaybeError usage(const CLI::App& app, const CLI::ParseError& problem) {
     std::replace(message.begin(), message.end(), '\n', ' ');
     const auto parsed = app.get_subcommands();
     const std::string subcommand = parsed.empty() ? "" : parsed.front()->get_name() + " ";
-    return Error{ExitCode::Usage, message + "; see jawari " + subcommand + "--help"};
+    return Error{ErrorKind::Usage, message + "; see jawari " + subcommand + "--help"};
 }
 
 MaybeError run(int argc, char** argv, int& help_exit_code) {
@@ -69,17 +70,17 @@ MaybeError run(int argc, char** argv, int& help_exit_code) {
 int guarded_main(int argc, char** argv) {
     install_signal_handlers();
     MaybeError error;
-    int exit_code = 0;
+    int help_exit_code = 0;
     try {
-        error = run(argc, argv, exit_code);
+        error = run(argc, argv, help_exit_code);
     } catch (const std::bad_alloc&) {
-        error = Error{ExitCode::Internal, "jawari: out of memory"};
+        error = Error{ErrorKind::Internal, "jawari: out of memory"};
     } catch (const std::exception& problem) {
-        error = Error{ExitCode::Internal, std::string("jawari: internal error: ") + problem.what()};
+        error = Error{ErrorKind::Internal, std::string("jawari: internal error: ") + problem.what()};
     }
-    if (!error) return exit_code;
-    report(*error);
-    return static_cast<int>(error->code);
+    if (!error) return help_exit_code;
+    report(error->message);
+    return exit_code(error->kind);
 }
 
 }  // namespace

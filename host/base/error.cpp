@@ -8,11 +8,11 @@
 namespace jawari::host {
 
 Error invalid_input(const std::string& file, const Failure& failure) {
-    return {ExitCode::InvalidInput, file + ": " + failure.line()};
+    return {ErrorKind::InvalidInput, file + ": " + failure.line()};
 }
 
-Error usage_error(const std::string& option, const std::string& value, const std::string& allowed) {
-    return {ExitCode::Usage, Failure{option, value, allowed}.line()};
+Error usage_error(const std::string& setting, const std::string& value, const std::string& allowed) {
+    return {ErrorKind::Usage, Failure{setting, value, allowed}.line()};
 }
 
 Error file_error(const std::string& path, int system_error) {
@@ -20,11 +20,11 @@ Error file_error(const std::string& path, int system_error) {
 }
 
 Error file_error(const std::string& path, const std::string& reason) {
-    return {ExitCode::File, path + ": " + reason};
+    return {ErrorKind::File, path + ": " + reason};
 }
 
-void report(const Error& error) {
-    const std::string line = printable(error.message) + "\n";
+void report(const std::string& message) {
+    const std::string line = printable(message) + "\n";
     std::fwrite(line.data(), 1, line.size(), stderr);
 }
 

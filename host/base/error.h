@@ -1,4 +1,4 @@
-// Errors of the host: one line for the user and the exit code that goes with it.
+// Errors of the host: a kind for the program that uses it, one line for people.
 #pragma once
 
 #include <optional>
@@ -6,13 +6,23 @@
 #include <utility>
 #include <variant>
 
-#include "base/exit_codes.h"
 #include "jawari/result.h"
 
 namespace jawari::host {
 
+enum class ErrorKind {
+    Usage,         ///< what was asked for contradicts itself or is not allowed
+    InvalidInput,  ///< a scene, preset, tuning or MIDI file says something that is not allowed
+    File,          ///< a file cannot be read or written
+    Internal,      ///< a defect of the program, or out of memory
+    Device,        ///< an audio or MIDI device or its driver cannot be used, or was lost
+    HungUp,        ///< the terminal is gone
+    Interrupted,
+    Terminated
+};
+
 struct Error {
-    ExitCode code = ExitCode::Internal;
+    ErrorKind kind = ErrorKind::Internal;
     std::string message;  ///< one line, without a newline
 };
 
@@ -42,8 +52,8 @@ class Outcome {
 /// An invalid input file: `bass.json: strings[0].length_m: -1 (allowed: 0.001 to 100)`.
 Error invalid_input(const std::string& file, const Failure& failure);
 
-/// A wrong command line: `--theta: 3 (allowed: 0.5 to 1)`.
-Error usage_error(const std::string& option, const std::string& value, const std::string& allowed);
+/// A setting that is not allowed: `--theta: 3 (allowed: 0.5 to 1)`.
+Error usage_error(const std::string& setting, const std::string& value, const std::string& allowed);
 
 /// A failed system call on a file: `out/x.csv: No such file or directory`. `system_error`: a value of errno.
 Error file_error(const std::string& path, int system_error);
@@ -52,6 +62,6 @@ Error file_error(const std::string& path, int system_error);
 Error file_error(const std::string& path, const std::string& reason);
 
 /// Writes the message to standard error as exactly one line, whatever it contains.
-void report(const Error& error);
+void report(const std::string& message);
 
 }  // namespace jawari::host

@@ -8,7 +8,7 @@
 
 namespace jawari::host {
 
-/// The file's bytes; `-` is standard input. Exit code File if it cannot be read, InvalidInput if it is longer
+/// The file's bytes; `-` is standard input. Kind File if it cannot be read, InvalidInput if it is longer
 /// than `longest` bytes.
 Outcome<std::string> read_file(const std::string& path, std::size_t longest);
 

@@ -1,74 +1,58 @@
 #include "base/interrupt.h"
 
-#include <unistd.h>
-
 #include <array>
 #include <atomic>
-#include <climits>
-#include <csignal>
 #include <cstddef>
 #include <cstring>
 #include <utility>
+
+#include "base/platform.h"
 
 namespace jawari::host {
 
 namespace {
 
-// Signal handlers can reach nothing but globals; lock-free atomics and unlink() are all they may touch.
-std::atomic<int> received_signal{0};
-static_assert(std::atomic<int>::is_always_lock_free);
+using platform::EndRequest;
+
+// Signal handlers can reach nothing but globals; lock-free atomics and removing files are all they may do.
+std::atomic<EndRequest> received{EndRequest::None};
+static_assert(std::atomic<EndRequest>::is_always_lock_free);
 
 struct Slot {
     std::atomic<int> state{0};  // 0 free, 1 being written, 2 in use
-    std::array<char, PATH_MAX> path{};
+    std::array<char, platform::longest_path_bytes> path{};
 };
 std::array<Slot, 160> slots;  // enough for a file per string of the largest instrument
 
-extern "C" void on_signal(int signal) {
-    if (received_signal.exchange(signal) == 0) return;
+void on_request(EndRequest request) {
+    if (received.exchange(request) == EndRequest::None) return;
     for (Slot& slot : slots)
-        if (slot.state.load() == 2) unlink(slot.path.data());
-    _exit(128 + signal);
-}
-
-void handle(int signal, void (*handler)(int)) {
-    struct sigaction action {};
-    action.sa_handler = handler;
-    sigemptyset(&action.sa_mask);
-    sigaction(signal, &action, nullptr);
-}
-
-/// As nohup leaves it: the program is to outlive its terminal.
-bool is_ignored(int signal) {
-    struct sigaction action {};
-    return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+        if (slot.state.load() == 2) platform::remove_file(slot.path.data());
+    platform::end_at_once(request);
 }
 
 }  // namespace
 
 void install_signal_handlers() {
-    handle(SIGINT, on_signal);
-    handle(SIGTERM, on_signal);
-    if (!is_ignored(SIGHUP)) handle(SIGHUP, on_signal);
-    handle(SIGPIPE, SIG_IGN);
-    handle(SIGXFSZ, SIG_IGN);
+    platform::on_end_request(&on_request);
 }
 
 MaybeError interruption() {
-    switch (received_signal.load(std::memory_order_relaxed)) {
-        case 0:
-            return std::nullopt;
-        case SIGTERM:
-            return Error{ExitCode::Terminated, "jawari: terminated, nothing was written"};
-        case SIGHUP:
-            return Error{ExitCode::HungUp, "jawari: the terminal is gone, nothing was written"};
-        default:
-            return Error{ExitCode::Interrupted, "jawari: interrupted, nothing was written"};
+    switch (received.load(std::memory_order_relaxed)) {
+        case EndRequest::None:
+            break;
+        case EndRequest::Terminate:
+            return Error{ErrorKind::Terminated, "jawari: terminated, nothing was written"};
+        case EndRequest::HangUp:
+            return Error{ErrorKind::HungUp, "jawari: the terminal is gone, nothing was written"};
+        case EndRequest::Interrupt:
+            return Error{ErrorKind::Interrupted, "jawari: interrupted, nothing was written"};
     }
+    return std::nullopt;
 }
 
 TemporaryFileGuard::TemporaryFileGuard(const std::string& path) {
-    if (path.size() >= PATH_MAX) return;
+    if (path.size() >= platform::longest_path_bytes) return;
     for (std::size_t i = 0; i < slots.size(); ++i) {
         int free = 0;
         if (!slots[i].state.compare_exchange_strong(free, 1)) continue;

@@ -11,7 +11,7 @@ namespace jawari::host {
 /// Installs the handlers, and ignores SIGPIPE and SIGXFSZ so that writing reports the failure instead.
 void install_signal_handlers();
 
-/// An Error with exit code 129, 130 or 143 once a signal has come; cheap, to be polled.
+/// An Error of kind HungUp, Interrupted or Terminated once a signal has come; cheap, to be polled.
 MaybeError interruption();
 
 /// A file that the signal handler unlinks if the program is ended at once. Movable, forgets on destruction.

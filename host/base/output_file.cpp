@@ -1,31 +1,18 @@
 #include "base/output_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <utility>
 
+#include "base/platform.h"
+
 namespace jawari::host {
 
 namespace {
 
 constexpr std::size_t buffer_bytes = std::size_t{1} << 18U;
-
-/// The mode a new file would get from open(); mkstemp() is stricter than users expect of an output file.
-/// Asked once: the mask can only be read by setting it, which two threads must not do at a time.
-mode_t ordinary_mode() {
-    static const mode_t mode = [] {
-        const mode_t mask = umask(0);
-        umask(mask);
-        return static_cast<mode_t>(0666U & ~mask);
-    }();
-    return mode;
-}
 
 /// Follows a symbolic link, also one whose target does not exist yet.
 std::string follow_links(const std::string& path) {
@@ -41,14 +28,14 @@ Outcome<OutputFile> OutputFile::create(const std::string& path) {
     file.path_ = path;
     if (path == "-") {
         file.path_ = "standard output";
-        file.descriptor_ = dup(STDOUT_FILENO);
+        file.descriptor_ = platform::duplicate(platform::standard_output);
         if (file.descriptor_ < 0) return file_error(file.path_, errno);
         return file;
     }
-    struct stat status {};
-    if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
-        if (S_ISDIR(status.st_mode)) return file_error(path, EISDIR);
-        file.descriptor_ = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    const auto facts = platform::file_facts(path);
+    if (facts && facts->kind != platform::FileKind::Regular) {
+        if (facts->kind == platform::FileKind::Folder) return file_error(path, EISDIR);
+        file.descriptor_ = platform::open_to_write(path);
         if (file.descriptor_ < 0) return file_error(path, errno);
         return file;
     }
@@ -59,19 +46,19 @@ Outcome<OutputFile> OutputFile::create(const std::string& path) {
 MaybeError OutputFile::create_temporary() {
     if (path_.empty() || path_.back() == '/') return file_error(path_, path_.empty() ? ENOENT : EISDIR);
     final_path_ = follow_links(path_);
-    struct stat status {};
-    const bool exists = stat(final_path_.c_str(), &status) == 0;
-    if (!exists && errno != ENOENT) return file_error(path_, errno);
-    if (exists && access(final_path_.c_str(), W_OK) != 0) return file_error(path_, errno);
+    const auto old = platform::file_facts(final_path_);
+    if (!old && errno != ENOENT) return file_error(path_, errno);
+    if (old && !platform::may_write(final_path_)) return file_error(path_, errno);
 
     const auto directory = std::filesystem::path(final_path_).parent_path();
     std::string name =
         ((directory.empty() ? std::filesystem::path(".") : directory) / ".jawari-XXXXXX").string();
-    descriptor_ = mkostemp(name.data(), O_CLOEXEC);
+    descriptor_ = platform::create_temporary_file(name);
     if (descriptor_ < 0) return file_error(path_, errno);
     temporary_path_ = name;
     guard_ = TemporaryFileGuard(temporary_path_);
-    if (fchmod(descriptor_, exists ? (status.st_mode & 07777U) : ordinary_mode()) != 0)
+    // As the old file, or as a new one would be: a temporary one is stricter than users expect of an output.
+    if (!platform::set_permissions(descriptor_, old ? old->permissions : platform::ordinary_permissions()))
         return file_error(path_, errno);
     return std::nullopt;
 }
@@ -104,7 +91,7 @@ MaybeError OutputFile::write(std::string_view text) {
 MaybeError OutputFile::flush() {
     std::string_view left = buffer_;
     while (!left.empty()) {
-        const ssize_t written = ::write(descriptor_, left.data(), left.size());
+        const std::ptrdiff_t written = platform::write_some(descriptor_, left);
         if (written < 0 && errno == EINTR) {
             if (auto stop = interruption()) return stop;
             continue;
@@ -118,8 +105,8 @@ MaybeError OutputFile::flush() {
 
 MaybeError OutputFile::commit() {
     if (auto error = flush()) return error;
-    if (seekable() && fsync(descriptor_) != 0) return file_error(path_, errno);
-    if (::close(std::exchange(descriptor_, -1)) != 0) return file_error(path_, errno);
+    if (seekable() && !platform::flush_to_disk(descriptor_)) return file_error(path_, errno);
+    if (!platform::close_file(std::exchange(descriptor_, -1))) return file_error(path_, errno);
     if (!seekable()) return std::nullopt;
     if (std::rename(temporary_path_.c_str(), final_path_.c_str()) != 0) return file_error(path_, errno);
     guard_.forget();
@@ -128,8 +115,8 @@ MaybeError OutputFile::commit() {
 }
 
 void OutputFile::discard() noexcept {
-    if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
-    if (!temporary_path_.empty()) unlink(temporary_path_.c_str());
+    if (descriptor_ >= 0) platform::close_file(std::exchange(descriptor_, -1));
+    if (!temporary_path_.empty()) platform::remove_file(temporary_path_.c_str());
     temporary_path_.clear();
     guard_.forget();
 }

@@ -1,12 +1,12 @@
 #include "base/progress.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <utility>
+
+#include "base/platform.h"
 
 namespace jawari::host {
 
@@ -34,7 +34,7 @@ std::string progress_line(const std::string& label, double fraction, double elap
 
 ProgressBar::ProgressBar(std::string label)
     : label_(std::move(label)),
-      enabled_(isatty(STDERR_FILENO) == 1),
+      enabled_(platform::is_terminal(platform::standard_error)),
       started_(Clock::now()),
       last_drawn_(started_) {}
 

@@ -1,14 +1,15 @@
 #include "base/sound_file.h"
-#include "jawari/version.h"
 
 #include <sndfile.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <utility>
+
+#include "base/platform.h"
+#include "jawari/version.h"
 
 namespace jawari::host {
 
@@ -56,7 +57,7 @@ Outcome<SoundFile> SoundFile::create(OutputFile file, std::uint32_t rate_hz, std
     } else {
         spool.reset(std::tmpfile());
         if (!spool) return file_error(file.path(), errno);
-        sound.reset(sf_open_fd(fileno(spool.get()), SFM_WRITE, &info, SF_FALSE));
+        sound.reset(sf_open_fd(platform::descriptor_of(spool.get()), SFM_WRITE, &info, SF_FALSE));
     }
     if (!sound) return file_error(file.path(), sf_strerror(nullptr));
     // The peak chunk holds the time of writing: equal runs would give different files.
@@ -80,9 +81,9 @@ MaybeError SoundFile::write(std::span<const double> samples) {
 
 /// libsndfile does not report every failed write of its header.
 MaybeError SoundFile::check_size(int descriptor) const {
-    struct stat status {};
-    if (fstat(descriptor, &status) != 0) return file_error(file_.path(), errno);
-    if (static_cast<std::uint64_t>(status.st_size) < bytes_) return file_error(file_.path(), ENOSPC);
+    const auto facts = platform::file_facts(descriptor);
+    if (!facts) return file_error(file_.path(), errno);
+    if (facts->bytes < bytes_) return file_error(file_.path(), ENOSPC);
     return std::nullopt;
 }
 
@@ -103,7 +104,8 @@ MaybeError SoundFile::commit() {
     sf_write_sync(sound_.get());
     if (sf_error(sound_.get()) != SF_ERR_NO_ERROR) return failure();
     if (sf_close(sound_.release()) != 0) return file_error(file_.path(), errno != 0 ? errno : EIO);
-    if (auto error = check_size(spool_ ? fileno(spool_.get()) : file_.descriptor())) return error;
+    if (auto error = check_size(spool_ ? platform::descriptor_of(spool_.get()) : file_.descriptor()))
+        return error;
     if (spool_) {
         if (auto error = copy_spool()) return error;
     }

@@ -58,7 +58,7 @@ std::string audio_system_title(const std::string& system) {
 Outcome<std::vector<AudioDevice>> audio_devices(const std::string& system) {
     const QuietStandardError quiet;
     const auto audio = rtaudio::make(RtAudio::getCompiledApiByName(system));
-    if (!audio) return Error{ExitCode::Device, system + ": cannot be used here"};
+    if (!audio) return Error{ErrorKind::Device, system + ": cannot be used here"};
     std::vector<AudioDevice> devices;
     for (const rtaudio::Device& each : rtaudio::devices(*audio)) {
         if (each.info.outputChannels < 2) continue;
@@ -83,7 +83,7 @@ Outcome<std::size_t> match_name(const std::vector<std::string>& names, const std
     if (parts.size() == 1) return parts.front();
     const std::string problem =
         parts.empty() ? "no " + what + " has that number or name" : "more than one " + what;
-    return Error{ExitCode::Device, in_quotes(wanted) + ": " + problem + " (" + numbered(names) + ")"};
+    return Error{ErrorKind::Device, in_quotes(wanted) + ": " + problem + " (" + numbered(names) + ")"};
 }
 
 unsigned int choose_rate(const AudioDevice& device, unsigned int wanted_hz) {

@@ -36,7 +36,7 @@ MaybeError AudioLink::open() {
     const std::vector<std::string> built_in = audio_systems();
     const bool automatic = wish_.system == "auto";
     if (!automatic && std::find(built_in.begin(), built_in.end(), wish_.system) == built_in.end())
-        return Error{ExitCode::Device,
+        return Error{ErrorKind::Device,
                      "audio: " + wish_.system + ": not built in (built in: " + join(built_in) + ")"};
     std::vector<std::string> reasons;
     for (const std::string& system : automatic ? built_in : std::vector<std::string>{wish_.system}) {
@@ -48,7 +48,7 @@ MaybeError AudioLink::open() {
         }
         reasons.push_back(system + ": " + error->message);
     }
-    return Error{ExitCode::Device,
+    return Error{ErrorKind::Device,
                  "audio: " + (reasons.empty() ? "no system is built in" : join(reasons, "; "))};
 }
 
@@ -67,7 +67,7 @@ void AudioLink::describe() {
 MaybeError AudioLink::start(AudioRender render, void* player) {
     if (auto error = stream_->start(render, player)) {
         stream_.reset();
-        return Error{error->code, "audio: " + facts_.system + ": " + error->message};
+        return Error{error->kind, "audio: " + facts_.system + ": " + error->message};
     }
     facts_ = stream_->facts();
     return std::nullopt;

@@ -1,14 +1,12 @@
 #include "devices/audio_stream.h"
 
-#include <pthread.h>
-#include <sched.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "base/platform.h"
 #include "base/text.h"
 #include "devices/audio_devices.h"
 #include "devices/quiet.h"
@@ -27,13 +25,6 @@ std::int64_t steady_now_ns() {
         .count();
 }
 
-int own_real_time_priority() {
-    int policy = 0;
-    sched_param parameters{};
-    if (pthread_getschedparam(pthread_self(), &policy, &parameters) != 0) return 0;
-    return policy == SCHED_FIFO || policy == SCHED_RR ? parameters.sched_priority : 0;
-}
-
 /// Integer formats of drivers wrap around beyond full scale. The number of samples that were held.
 std::uint64_t hold_at_full_scale(double* samples, std::size_t count) {
     std::uint64_t held = 0;
@@ -49,7 +40,7 @@ Outcome<AudioDevice> find_device(const AudioRequest& request) {
     const auto devices = audio_devices(request.system);
     if (!devices) return devices.error();
     if (devices.value().empty())
-        return Error{ExitCode::Device, request.system == "jack" ? "no server" : "no device"};
+        return Error{ErrorKind::Device, request.system == "jack" ? "no server" : "no device"};
     if (request.device.empty()) {
         for (const AudioDevice& each : devices.value())
             if (each.is_default) return each;
@@ -70,7 +61,7 @@ Outcome<std::unique_ptr<AudioStream>> AudioStream::open(const AudioRequest& requ
     std::unique_ptr<AudioStream> stream(new AudioStream);
     const QuietStandardError quiet;
     stream->audio_ = rtaudio::make(RtAudio::getCompiledApiByName(request.system));
-    if (!stream->audio_) return Error{ExitCode::Device, "cannot be used here"};
+    if (!stream->audio_) return Error{ErrorKind::Device, "cannot be used here"};
 
     RtAudio::StreamOptions options;
     options.flags = RTAUDIO_NONINTERLEAVED | RTAUDIO_SCHEDULE_REALTIME;
@@ -118,7 +109,7 @@ void AudioStream::fill(const AudioBlock& block) {
         counter.store(counter.load(std::memory_order_relaxed) + amount, std::memory_order_relaxed);
     };
     if (counters_.real_time_priority.load(std::memory_order_relaxed) < 0)
-        counters_.real_time_priority.store(own_real_time_priority(), std::memory_order_relaxed);
+        counters_.real_time_priority.store(platform::own_real_time_priority(), std::memory_order_relaxed);
     render_(player_, block);
     add(counters_.clipped,
         hold_at_full_scale(block.left, block.frames) + hold_at_full_scale(block.right, block.frames));

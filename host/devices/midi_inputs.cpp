@@ -41,7 +41,7 @@ MaybeError MidiInputs::choose_system() {
     const bool automatic = wish_.system == "auto";
     const std::vector<std::string> systems = midi_systems();
     if (!automatic && !contains(systems, wish_.system))
-        return Error{ExitCode::Device,
+        return Error{ErrorKind::Device,
                      "midi: " + wish_.system + ": not built in (built in: " + join(systems) + ")"};
     std::vector<std::string> reasons;
     for (const std::string& system : automatic ? systems : std::vector<std::string>{wish_.system}) {
@@ -53,7 +53,7 @@ MaybeError MidiInputs::choose_system() {
         }
         reasons.push_back(system + ": " + lister.error().message);
     }
-    return Error{ExitCode::Device,
+    return Error{ErrorKind::Device,
                  "midi: " + (reasons.empty() ? "no system is built in" : join(reasons, "; "))};
 }
 
@@ -62,7 +62,7 @@ MaybeError MidiInputs::start() {
     const std::vector<std::string> names = lister_->names();
     if (wish_.input != automatic_midi_in && wish_.input != virtual_midi_in) {
         const auto index = match_name(names, wish_.input, "MIDI input");
-        if (!index) return Error{index.error().code, "midi: " + system_ + ": " + index.error().message};
+        if (!index) return Error{index.error().kind, "midi: " + system_ + ": " + index.error().message};
         input_ = lasting_name(names[index.value()]);
     }
     connect_virtual();

@@ -22,7 +22,7 @@ constexpr const char* virtual_port_name = "in";
 
 Error midi_error(const std::string& reason) {
     const std::size_t place = reason.rfind(": ");
-    return {ExitCode::Device, place == std::string::npos ? reason : reason.substr(place + 2)};
+    return {ErrorKind::Device, place == std::string::npos ? reason : reason.substr(place + 2)};
 }
 
 /// Keeps the library from writing to standard error by itself.
@@ -78,7 +78,7 @@ Outcome<std::unique_ptr<MidiLister>> MidiLister::create(const std::string& syste
     } catch (const std::exception& problem) {
         return midi_error(problem.what());
     }
-    if (!has_server(quiet)) return Error{ExitCode::Device, "no server"};
+    if (!has_server(quiet)) return Error{ErrorKind::Device, "no server"};
     return lister;
 }
 
@@ -118,9 +118,9 @@ Outcome<std::unique_ptr<MidiReceiver>> MidiReceiver::connect(const std::string& 
         RtMidiIn& midi = *receiver.value()->midi_;
         // Numbers move when ports come and go.
         if (midi.getPortName(static_cast<unsigned int>(index)) != name)
-            return Error{ExitCode::Device, "it went away"};
+            return Error{ErrorKind::Device, "it went away"};
         midi.openPort(static_cast<unsigned int>(index), virtual_port_name);
-        if (!midi.isPortOpen()) return Error{ExitCode::Device, "it cannot be connected to"};
+        if (!midi.isPortOpen()) return Error{ErrorKind::Device, "it cannot be connected to"};
         return receiver;
     } catch (const std::exception& problem) {
         return midi_error(problem.what());
@@ -133,7 +133,7 @@ Outcome<std::unique_ptr<MidiReceiver>> MidiReceiver::make_virtual(const std::str
         auto receiver =
             create(system, std::string("virtual port ") + client_name + ":" + virtual_port_name, port);
         receiver.value()->midi_->openVirtualPort(virtual_port_name);
-        if (!has_server(quiet)) return Error{ExitCode::Device, "no server"};
+        if (!has_server(quiet)) return Error{ErrorKind::Device, "no server"};
         return receiver;
     } catch (const std::exception& problem) {
         return midi_error(problem.what());

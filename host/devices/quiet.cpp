@@ -1,38 +1,36 @@
 #include "devices/quiet.h"
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <string_view>
 #include <utility>
 
+#include "base/platform.h"
 #include "base/text.h"
 
 namespace jawari::host {
 
-QuietStandardError::QuietStandardError() : collected_(memfd_create("jawari-quiet", MFD_CLOEXEC)) {
+QuietStandardError::QuietStandardError() : collected_(platform::create_nameless_file()) {
     std::fflush(stderr);
     if (collected_ < 0) return;
-    saved_ = dup(STDERR_FILENO);
-    if (saved_ >= 0) dup2(collected_, STDERR_FILENO);
+    saved_ = platform::duplicate(platform::standard_error);
+    if (saved_ >= 0) platform::redirect(platform::standard_error, collected_);
 }
 
 void QuietStandardError::restore() {
     std::fflush(stderr);
     if (saved_ >= 0) {
-        dup2(saved_, STDERR_FILENO);
-        close(std::exchange(saved_, -1));
+        platform::redirect(platform::standard_error, saved_);
+        platform::close_file(std::exchange(saved_, -1));
     }
-    if (collected_ >= 0) close(std::exchange(collected_, -1));
+    if (collected_ >= 0) platform::close_file(std::exchange(collected_, -1));
 }
 
 std::string QuietStandardError::text() const {
     std::string text(4096, '\0');
-    const ssize_t length = collected_ < 0 ? 0 : pread(collected_, text.data(), text.size(), 0);
-    text.resize(static_cast<std::size_t>(std::max<ssize_t>(length, 0)));
+    const std::ptrdiff_t length = collected_ < 0 ? 0 : platform::read_some_at(collected_, 0, text);
+    text.resize(static_cast<std::size_t>(std::max<std::ptrdiff_t>(length, 0)));
     return text;
 }
 

@@ -15,7 +15,7 @@ Error device_error(std::string reason) {
     const std::size_t place = reason.rfind(": ");
     if (reason.starts_with("RtApi") && place != std::string::npos) reason.erase(0, place + 2);
     while (!reason.empty() && (reason.back() == '.' || reason.back() == '\n')) reason.pop_back();
-    return {ExitCode::Device, std::move(reason)};
+    return {ErrorKind::Device, std::move(reason)};
 }
 
 /// What a call into the library comes to. RtAudio 6 returns a code, RtAudio 5 throws; the library's own

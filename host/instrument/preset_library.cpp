@@ -1,7 +1,6 @@
 #include "instrument/preset_library.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -9,6 +8,7 @@
 
 #include "base/builtin.h"
 #include "base/input_file.h"
+#include "base/platform.h"
 #include "base/text.h"
 
 namespace jawari::host {
@@ -19,19 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t longest_preset_bytes = std::size_t{4} << 20U;
 constexpr std::string_view extension = ".json";
-
-std::string environment(const char* name) {
-    const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nothing here sets variables
-    return value == nullptr ? std::string() : std::string(value);
-}
-
-/// The variable if it is an absolute path, else a folder in the home folder, else nothing.
-std::string base_folder(const char* variable, const char* below_home) {
-    std::string value = environment(variable);
-    if (value.starts_with('/')) return value;
-    const std::string home = environment("HOME");
-    return home.starts_with('/') ? home + below_home : std::string();
-}
 
 bool is_folder(const std::string& path) {
     std::error_code ignored;
@@ -74,17 +61,11 @@ std::vector<PresetFolder> preset_folders() {
     constexpr const char* below = "/jawari/presets";
     std::vector<PresetFolder> folders;
     const auto add = [&](PresetOrigin origin, const std::string& base) {
-        if (base.starts_with('/')) folders.push_back({origin, base + below});
+        if (!base.empty()) folders.push_back({origin, base + below});
     };
-    add(PresetOrigin::UserConfig, base_folder("XDG_CONFIG_HOME", "/.config"));
-    add(PresetOrigin::UserData, base_folder("XDG_DATA_HOME", "/.local/share"));
-    std::string system = environment("XDG_DATA_DIRS");
-    if (system.empty()) system = "/usr/local/share:/usr/share";
-    for (std::size_t begin = 0; begin <= system.size();) {
-        const std::size_t end = std::min(system.find(':', begin), system.size());
-        add(PresetOrigin::System, system.substr(begin, end - begin));
-        begin = end + 1;
-    }
+    add(PresetOrigin::UserConfig, platform::user_folder(platform::UserFolder::Configuration));
+    add(PresetOrigin::UserData, platform::user_folder(platform::UserFolder::Data));
+    for (const std::string& base : platform::system_data_folders()) add(PresetOrigin::System, base);
     return folders;
 }
 
@@ -109,7 +90,7 @@ Outcome<Preset> load_preset(const std::string& argument) {
     std::vector<std::string> names;
     for (const NamedPreset& preset : named_presets()) names.push_back(preset.name);
     return Error{
-        ExitCode::File,
+        ErrorKind::File,
         printable(argument) + ": no such file, and no preset of that name (presets: " + join(names) + ")"};
 }
 

@@ -32,7 +32,7 @@ std::vector<PresetFolder> preset_folders();
 std::vector<NamedPreset> named_presets();
 
 /// `argument`: a file; else NAME.json in the first folder that has it; else a built-in name. A name without a
-/// preset has the exit code File.
+/// preset is an error of kind File.
 Outcome<Preset> load_preset(const std::string& argument);
 
 /// Whether load_preset() would find a preset of that name.

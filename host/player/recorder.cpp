@@ -37,7 +37,7 @@ Outcome<std::unique_ptr<LiveRecorder>> LiveRecorder::start(LivePlayer& player,
     recorder->ring_ = std::make_shared<CaptureRing>(frames, ring_messages);
     if (!player.start_capture(recorder->ring_)) {
         recorder->stopped_ = true;
-        return Error{ExitCode::Internal, "record: the audio thread does not take commands"};
+        return Error{ErrorKind::Internal, "record: the audio thread does not take commands"};
     }
     recorder->thread_ = std::thread([raw = recorder.get()] { raw->run(); });
     return recorder;

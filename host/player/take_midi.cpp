@@ -1,11 +1,10 @@
 #include "player/take_midi.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <utility>
 
+#include "base/platform.h"
 #include "player/take_sound.h"
 
 namespace jawari::host {
@@ -98,7 +97,7 @@ TakeMidi& TakeMidi::operator=(TakeMidi&& other) noexcept {
 }
 
 TakeMidi::~TakeMidi() {
-    if (descriptor_ >= 0) ::close(descriptor_);
+    if (descriptor_ >= 0) platform::close_file(descriptor_);
 }
 
 void TakeMidi::add(const CapturedMessage& captured) {
@@ -130,23 +129,23 @@ MaybeError TakeMidi::update(std::uint64_t end_frame) {
 MaybeError TakeMidi::close(std::uint64_t end_frame) {
     if (auto error = update(end_frame)) return error;
     const int descriptor = std::exchange(descriptor_, -1);
-    if (fdatasync(descriptor) != 0 && errno != EINVAL) {
+    if (!platform::flush_content_to_disk(descriptor) && errno != EINVAL) {
         const int reason = errno;
-        ::close(descriptor);
+        platform::close_file(descriptor);
         return file_error(path_, reason);
     }
-    if (::close(descriptor) != 0) return file_error(path_, errno);
+    if (!platform::close_file(descriptor)) return file_error(path_, errno);
     return std::nullopt;
 }
 
 MaybeError TakeMidi::write_at(std::uint64_t offset, const std::string& bytes) {
-    std::size_t done = 0;
-    while (done < bytes.size()) {
-        const ssize_t count =
-            pwrite(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
+    std::string_view left = bytes;
+    while (!left.empty()) {
+        const std::ptrdiff_t count = platform::write_some_at(descriptor_, offset, left);
         if (count < 0 && errno == EINTR) continue;
         if (count <= 0) return file_error(path_, count < 0 ? errno : EIO);
-        done += static_cast<std::size_t>(count);
+        left.remove_prefix(static_cast<std::size_t>(count));
+        offset += static_cast<std::uint64_t>(count);
     }
     return std::nullopt;
 }

@@ -1,13 +1,13 @@
 #include "player/take_sound.h"
 
-#include <fcntl.h>
 #include <sndfile.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <utility>
+
+#include "base/platform.h"
 
 namespace jawari::host {
 
@@ -28,8 +28,7 @@ int subtype(SampleFormat format) {
 }  // namespace
 
 Outcome<int> create_in_place(const std::string& path, bool overwrite) {
-    const int mode = O_WRONLY | O_CREAT | O_CLOEXEC | (overwrite ? O_TRUNC : O_EXCL);
-    const int descriptor = open(path.c_str(), mode, 0666);
+    const int descriptor = platform::create_file(path, overwrite);
     if (descriptor >= 0) return descriptor;
     if (errno == EEXIST) return file_error(path, "exists already (allowed: a new file, or --force)");
     return file_error(path, errno);
@@ -49,7 +48,7 @@ Outcome<TakeSound> TakeSound::create(const std::string& path, std::uint32_t rate
     info.format = SF_FORMAT_RF64 | subtype(format);
     std::unique_ptr<sf_private_tag, Close> sound(sf_open_fd(descriptor.value(), SFM_WRITE, &info, SF_TRUE));
     if (!sound) {
-        ::close(descriptor.value());
+        platform::close_file(descriptor.value());
         return file_error(path, sf_strerror(nullptr));
     }
     // The header says WAV for as long as the file is small enough for that.

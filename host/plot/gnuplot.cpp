@@ -1,20 +1,14 @@
 #include "plot/gnuplot.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <memory>
 
 #include "base/output_file.h"
+#include "base/platform.h"
 
 namespace jawari::host::plot {
 namespace {
-
-constexpr const char* program = "gnuplot";
 
 struct CloseFile {
     void operator()(std::FILE* file) const noexcept { std::fclose(file); }
@@ -67,34 +61,9 @@ std::string last_line(std::FILE* file) {
     return line.empty() ? last : line;
 }
 
-/// What gnuplot did with three open descriptors as its standard input, output and error.
-struct Run {
-    int spawn_error = 0;  ///< errno of a program that could not be started
-    int status = 0;       ///< as waitpid() says
-};
-
-Run run_gnuplot(int input, int output, int error, const char* option) {
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, error, STDERR_FILENO);
-    // --default-settings: the picture does not depend on the user's start-up files.
-    std::string name = program, settings = "--default-settings", last = option;
-    char* arguments[] = {name.data(), settings.data(), last.empty() ? nullptr : last.data(), nullptr};
-    Run run;
-    pid_t child = 0;
-    run.spawn_error = posix_spawnp(&child, program, &actions, nullptr, arguments, environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (run.spawn_error == 0) {
-        while (waitpid(child, &run.status, 0) < 0 && errno == EINTR) {
-        }
-    }
-    return run;
-}
-
-bool succeeded(const Run& run) {
-    return WIFEXITED(run.status) && WEXITSTATUS(run.status) == 0;
+/// --default-settings: the picture does not depend on the user's start-up files.
+std::vector<std::string> gnuplot_command() {
+    return {"gnuplot", "--default-settings"};
 }
 
 Error cannot_start(const std::string& path, int error) {
@@ -115,12 +84,14 @@ Outcome<PictureFormat> picture_format(const std::string& path) {
 
 MaybeError can_plot(const std::string& path) {
     if (const auto format = picture_format(path); !format) return format.error();
-    const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
+    const int nothing = platform::open_nothing();
     if (nothing < 0) return file_error("/dev/null", errno);
-    const Run run = run_gnuplot(nothing, nothing, nothing, "--version");
-    close(nothing);
-    if (run.spawn_error != 0) return cannot_start(path, run.spawn_error);
-    if (!succeeded(run)) return file_error(path, "gnuplot does not run (`gnuplot --version` fails)");
+    auto command = gnuplot_command();
+    command.emplace_back("--version");
+    const auto end = platform::run_program(command, nothing, nothing, nothing);
+    platform::close_file(nothing);
+    if (end.start_error != 0) return cannot_start(path, end.start_error);
+    if (!end.succeeded) return file_error(path, "gnuplot does not run (`gnuplot --version` fails)");
     return {};
 }
 
@@ -166,11 +137,12 @@ MaybeError draw(const std::string& path, int width, int height, const std::strin
     if (auto error = fill(input.get(), prologue + terminal(format.value(), width, height) + script))
         return error;
 
-    const Run run =
-        run_gnuplot(fileno(input.get()), picture.value().descriptor(), fileno(messages.get()), "");
-    if (run.spawn_error != 0) return cannot_start(path, run.spawn_error);
+    const auto end =
+        platform::run_program(gnuplot_command(), platform::descriptor_of(input.get()),
+                              picture.value().descriptor(), platform::descriptor_of(messages.get()));
+    if (end.start_error != 0) return cannot_start(path, end.start_error);
     if (auto stopped = interruption()) return stopped;
-    if (!succeeded(run)) return file_error(path, "gnuplot failed: " + last_line(messages.get()));
+    if (!end.succeeded) return file_error(path, "gnuplot failed: " + last_line(messages.get()));
     return picture.value().commit();
 }
 

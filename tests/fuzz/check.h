@@ -17,7 +17,7 @@ inline void require(bool holds, const char* what) {
 
 /// A refused input is one line that names its file, with the exit code for invalid input.
 inline void require_proper_refusal(const host::Error& error, const std::string& file) {
-    require(error.code == host::ExitCode::InvalidInput, "exit code of a refused file");
+    require(error.kind == host::ErrorKind::InvalidInput, "exit code of a refused file");
     require(error.message.starts_with(file + ":"), "the message starts with the file");
     require(error.message.find('\n') == std::string::npos, "the message is one line");
 }

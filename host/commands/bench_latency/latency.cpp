@@ -5,7 +5,9 @@
 
 #include "base/builtin.h"
 #include "base/output_file.h"
+#include "base/platform.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "commands/bench_latency/report.h"
 #include "plot/gnuplot.h"
 
@@ -135,7 +137,7 @@ MaybeError bench_latency(const LatencyOptions& options) {
         }
     }
     LatencyReport report;
-    report.processor = processor_name();
+    report.processor = printable(platform::processor_name());
     report.rate_hz = options.rate_hz;
     report.quality = std::string(name_of(options.quality)) + (options.governor ? ", governed" : "");
     for (Job& job : jobs) report.presets.push_back(std::move(job.result));

@@ -1,7 +1,6 @@
 #include "commands/bench_latency/report.h"
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
@@ -59,16 +58,6 @@ ShareHistogram histogram_of(const std::vector<float>& shares, double width, std:
         histogram.count[static_cast<std::size_t>(std::min(bin, static_cast<double>(bins - 1)))] += 1;
     }
     return histogram;
-}
-
-std::string processor_name() {
-    std::ifstream info("/proc/cpuinfo");
-    for (std::string text; std::getline(info, text);) {
-        const std::size_t colon = text.find(": ");
-        if (text.starts_with("model name") && colon != std::string::npos)
-            return printable(text.substr(colon + 2));
-    }
-    return "unknown";
 }
 
 std::string latency_text(const LatencyReport& report) {

@@ -44,9 +44,6 @@ struct LatencyReport {
 
 ShareHistogram histogram_of(const std::vector<float>& shares, double width, std::size_t bins);
 
-/// The processor's name as the system has it; `unknown` otherwise.
-std::string processor_name();
-
 std::string latency_text(const LatencyReport& report);
 std::string latency_json(const LatencyReport& report);
 std::string latency_csv(const LatencyReport& report);

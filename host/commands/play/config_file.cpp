@@ -1,7 +1,7 @@
-#include <cstdlib>
 #include <string_view>
 
 #include "base/input_file.h"
+#include "base/platform.h"
 #include "base/sound_file.h"
 #include "base/text.h"
 #include "commands/play/options.h"
@@ -131,14 +131,8 @@ PlayOptions merge(PlayOptions own, const PlayOptions& other) {
 }
 
 std::string default_config_path() {
-    const auto absolute = [](const char* name) {
-        const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nothing here sets variables
-        return value != nullptr && *value == '/' ? std::string(value) : std::string();
-    };
-    if (const std::string base = absolute("XDG_CONFIG_HOME"); !base.empty())
-        return base + "/jawari/play.json";
-    const std::string home = absolute("HOME");
-    return home.empty() ? home : home + "/.config/jawari/play.json";
+    const std::string base = platform::user_folder(platform::UserFolder::Configuration);
+    return base.empty() ? base : base + "/jawari/play.json";
 }
 
 Outcome<PlayOptions> read_play_config(const std::string& text, const std::string& file) {

@@ -1,15 +1,12 @@
 #include "commands/play/console.h"
 
-#include <sys/ioctl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <string_view>
 #include <utility>
 
+#include "base/platform.h"
 #include "base/text.h"
 
 namespace jawari::host {
@@ -20,9 +17,8 @@ constexpr std::size_t longest_line = 4096;
 
 /// A pipe, a socket or a file. Services have /dev/null, which is none of them and gives no commands.
 bool is_piped() {
-    struct stat status {};
-    if (fstat(STDIN_FILENO, &status) != 0) return false;
-    return S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode) || S_ISREG(status.st_mode);
+    const auto facts = platform::file_facts(platform::standard_input);
+    return facts && (facts->kind == platform::FileKind::Pipe || facts->kind == platform::FileKind::Regular);
 }
 
 void write_line(std::FILE* stream, const std::string& line) {
@@ -36,10 +32,10 @@ void write_line(std::FILE* stream, const std::string& line) {
 Console::Console(bool commands, PresetNames presets) {
     if (commands && Shell::is_possible()) {
         shell_ = std::make_unique<Shell>(std::move(presets));
-    } else if (isatty(STDERR_FILENO) == 1) {
+    } else if (platform::is_terminal(platform::standard_error)) {
         status_on_error_ = true;
     }
-    if (shell_ || (commands && is_piped())) descriptor_ = STDIN_FILENO;
+    if (shell_ || (commands && is_piped())) descriptor_ = platform::standard_input;
     had_commands_ = descriptor_ >= 0;
 }
 
@@ -48,9 +44,8 @@ Console::~Console() {
 }
 
 std::size_t Console::columns() {
-    winsize size{};
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return 79;
-    return size.ws_col - 1U;
+    const std::size_t columns = platform::terminal_columns(platform::standard_error).value_or(80);
+    return columns < 2 ? 79 : columns - 1;
 }
 
 void Console::hide() {
@@ -98,7 +93,7 @@ void Console::take_input() {
 
 void Console::take_piped() {
     std::array<char, 4096> bytes{};
-    const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
+    const std::ptrdiff_t count = platform::read_some(platform::standard_input, bytes);
     if (count < 0) return;  // a signal came
     unfinished_.append(bytes.data(), static_cast<std::size_t>(count));
     for (std::size_t end = unfinished_.find('\n'); end != std::string::npos; end = unfinished_.find('\n')) {

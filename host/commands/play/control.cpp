@@ -98,7 +98,7 @@ MaybeError Performance::check_guitar(const InstrumentDescription& instrument) co
     if (auto error = set_guitar_mode(instrument, guitar_channel_ - 1, wanted)) return error;
     if (wanted.guitar_strings == guitar_.guitar_strings && wanted.guitar_string == guitar_.guitar_string)
         return std::nullopt;
-    return Error{ExitCode::Usage, "guitar mode: the strings are others; start jawari play with this preset"};
+    return Error{ErrorKind::Usage, "guitar mode: the strings are others; start jawari play with this preset"};
 }
 
 MaybeError Performance::play_preset(const std::string& preset) {
@@ -107,7 +107,7 @@ MaybeError Performance::play_preset(const std::string& preset) {
     if (auto error = check_guitar(instrument.value()->preset.instrument)) return error;
     constexpr int most_attempts = 100;
     for (int attempt = 0; !player_.publish(instrument.value()); ++attempt) {
-        if (attempt == most_attempts) return Error{ExitCode::Device, "the audio thread takes no instrument"};
+        if (attempt == most_attempts) return Error{ErrorKind::Device, "the audio thread takes no instrument"};
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
         player_.collect();
     }
@@ -117,12 +117,12 @@ MaybeError Performance::play_preset(const std::string& preset) {
 
 MaybeError Performance::send(const LiveCommand& command) {
     if (player_.send(command)) return std::nullopt;
-    return Error{ExitCode::Device, "the audio thread takes no more commands"};
+    return Error{ErrorKind::Device, "the audio thread takes no more commands"};
 }
 
 MaybeError Performance::set_parameter(ParameterId parameter, double value) {
     if (parameter == ParameterId::BendRange)
-        return Error{ExitCode::Usage, "bend_range: set by RPN 0, or --set when jawari play starts"};
+        return Error{ErrorKind::Usage, "bend_range: set by RPN 0, or --set when jawari play starts"};
     LiveCommand command;
     command.kind = LiveCommand::Kind::SetParameter;
     command.parameter = parameter;

@@ -26,7 +26,7 @@ struct FreeMessage {
 using Message = std::unique_ptr<void, FreeMessage>;
 
 Error malformed(const std::string& what) {
-    return {ExitCode::Usage, "OSC: " + what};
+    return {ErrorKind::Usage, "OSC: " + what};
 }
 
 /// liblo leaves arguments where they lie in the packet, eight-byte numbers too, at any multiple of four.

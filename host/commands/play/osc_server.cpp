@@ -1,15 +1,11 @@
 #include "commands/play/osc_server.h"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <span>
 
+#include "base/platform.h"
 #include "base/text.h"
 #include "commands/play/osc_message.h"
 
@@ -22,13 +18,12 @@ constexpr int most_packets = 64;  // at a time, so that a flood leaves room for 
 
 class Sender {
   public:
-    Sender(int socket, const sockaddr_in& address) : socket_(socket), address_(address) {}
+    Sender(int socket, const platform::NetworkAddress& address) : socket_(socket), address_(address) {}
 
     void send(const std::string& path, std::vector<VerbValue> arguments) const {
         const std::vector<char> packet = encode_osc({path, std::move(arguments)});
         // A sender that does not listen is its own affair.
-        (void)sendto(socket_, packet.data(), packet.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
-                     reinterpret_cast<const sockaddr*>(&address_), sizeof address_);
+        platform::send_datagram(socket_, packet, address_);
     }
 
     void reply(const std::string& verb, const Outcome<VerbReply>& outcome) const {
@@ -43,29 +38,26 @@ class Sender {
 
   private:
     int socket_;
-    sockaddr_in address_;
+    platform::NetworkAddress address_;
 };
 
 }  // namespace
 
 Outcome<OscServer> OscServer::open(const std::string& host, std::uint16_t port) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port);
-    if (inet_pton(AF_INET, host.c_str(), &address.sin_addr) != 1)
+    const auto address = platform::host_address(host);
+    if (!address)
         return usage_error("--osc-host", in_quotes(host),
                            "an IPv4 address like 127.0.0.1, or 0.0.0.0 for all");
-    const bool local = (ntohl(address.sin_addr.s_addr) >> 24U) == 127;
-    OscServer server(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0), local);
-    if (server.socket_ < 0 ||
-        bind(server.socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
-        return Error{ExitCode::Device,
+    const bool local = (*address >> 24U) == 127;
+    OscServer server(platform::open_datagram_socket({*address, port}), local);
+    if (server.socket_ < 0)
+        return Error{ErrorKind::Device,
                      "OSC: " + host + ":" + std::to_string(port) + ": " + std::strerror(errno)};
     return server;
 }
 
 OscServer::~OscServer() {
-    if (socket_ >= 0) close(socket_);
+    if (socket_ >= 0) platform::close_socket(socket_);
 }
 
 /// From other machines come names, not paths: a recording or preset anywhere on the disk is for its user to
@@ -84,10 +76,8 @@ Outcome<VerbCall> OscServer::call_of(const std::string& verb, const std::vector<
 void OscServer::take_packets(const Execute& execute) {
     for (int i = 0; i < most_packets; ++i) {
         std::array<char, longest_osc_packet + 1> packet{};
-        sockaddr_in address{};
-        socklen_t address_size = sizeof address;
-        const ssize_t size = recvfrom(socket_, packet.data(), packet.size(), MSG_DONTWAIT,
-                                      reinterpret_cast<sockaddr*>(&address), &address_size);
+        platform::NetworkAddress address;
+        const std::ptrdiff_t size = platform::receive_datagram(socket_, packet, address);
         if (size < 0) return;
         const Sender sender(socket_, address);
         const auto messages = decode_osc(std::span(packet.data(), static_cast<std::size_t>(size)));

@@ -24,7 +24,7 @@ class OscServer {
   public:
     using Execute = std::function<Outcome<VerbReply>(const VerbCall& call)>;
 
-    /// `host`: an IPv4 address of this machine, 0.0.0.0 for all of them. Exit code Device if the port is
+    /// `host`: an IPv4 address of this machine, 0.0.0.0 for all of them. Kind Device if the port is
     /// taken.
     static Outcome<OscServer> open(const std::string& host, std::uint16_t port);
 
@@ -34,7 +34,7 @@ class OscServer {
     OscServer& operator=(const OscServer&) = delete;
     ~OscServer();
 
-    /// For poll().
+    /// For platform::wait_for_input().
     [[nodiscard]] int descriptor() const { return socket_; }
 
     /// Executes what has come, a bounded number of packets. Answers go to the sender: `/jawari/reply` with

@@ -1,7 +1,5 @@
 #include "commands/play/play.h"
 
-#include <poll.h>
-
 #include <array>
 #include <chrono>
 #include <iostream>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "base/interrupt.h"
+#include "base/platform.h"
 #include "commands/play/console.h"
 #include "commands/play/osc_server.h"
 #include "commands/play/session.h"
@@ -21,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int tick_ms = 10;
+constexpr std::chrono::milliseconds tick{10};
 constexpr auto status_period = std::chrono::milliseconds(100);
 
 /// The sound libraries write to std::cerr from threads of their own, when a server goes for instance; what
@@ -75,9 +74,8 @@ class Conductor {
 
     void wait() {
         const int commands = is_paused() ? -1 : console_.descriptor();
-        std::array<pollfd, 2> inputs{
-            {{commands, POLLIN, 0}, {osc_ == nullptr ? -1 : osc_->descriptor(), POLLIN, 0}}};
-        if (poll(inputs.data(), inputs.size(), tick_ms) > 0 && inputs[0].revents != 0) console_.take_input();
+        std::array<platform::Input, 2> inputs{{{commands}, {osc_ == nullptr ? -1 : osc_->descriptor()}}};
+        if (platform::wait_for_input(inputs, tick) && inputs[0].ready) console_.take_input();
     }
 
     void take_command() {
@@ -110,7 +108,7 @@ class Conductor {
 
     Outcome<VerbReply> execute_remote(const VerbCall& call) {
         if (call.verb->id == VerbId::Wait)
-            return Error{ExitCode::Usage, "wait: for the shell and pipes alone"};
+            return Error{ErrorKind::Usage, "wait: for the shell and pipes alone"};
         return session_.execute(call);
     }
 
@@ -146,7 +144,7 @@ MaybeError play(const PlayOptions& options) {
         if (console)
             console->say(line);
         else
-            report({ExitCode::Ok, line});
+            report(line);
     };
     Session session(wanted, say);
     if (auto error = session.open()) return error;

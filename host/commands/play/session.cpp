@@ -1,7 +1,5 @@
 #include "commands/play/session.h"
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -9,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/platform.h"
 #include "base/text.h"
 #include "commands/play/monitor_text.h"
 
@@ -54,7 +53,7 @@ std::string notice_text(const LiveNotice& notice) {
 }
 
 void lock_memory(const Session::Say& say) {
-    if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0)
+    if (platform::lock_memory())
         say("memory: locked");
     else
         say(std::string("warning: memory is not locked: ") + std::strerror(errno) +
@@ -183,7 +182,7 @@ MaybeError Session::watch_audio(double now) {
         if (audio_.check(now) != StreamState::Lost) return std::nullopt;
         const std::string lost =
             "audio: " + audio_.facts().system + ": " + in_quotes(audio_.facts().device) + " is lost";
-        if (!options_.retry.value_or(true)) return Error{ExitCode::Device, lost};
+        if (!options_.retry.value_or(true)) return Error{ErrorKind::Device, lost};
         say_("warning: " + lost + "; looking for it every second");
         // The JACK library does not find a new server while a client of the old one is left.
         if (shares_server()) midi_->stop();

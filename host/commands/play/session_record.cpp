@@ -24,7 +24,7 @@ std::string seconds(std::uint64_t frames, double rate_hz) {
 }  // namespace
 
 MaybeError Session::start_recording(const std::string& sound, const std::string& midi, bool overwrite) {
-    if (recorder_) return Error{ExitCode::Usage, "record: a recording is under way; record stop ends it"};
+    if (recorder_) return Error{ErrorKind::Usage, "record: a recording is under way; record stop ends it"};
     RecordingSettings settings;
     settings.sound = sound;
     settings.midi = midi;
@@ -67,7 +67,7 @@ Outcome<VerbReply> Session::record(const VerbCall& call) {
     if (text_of(call, 0) == "stop") {
         if (call.arguments.size() > 1)
             return usage_error("record stop", in_quotes(text_of(call, 1)), "no file");
-        if (!recorder_) return Error{ExitCode::Usage, "record stop: nothing is being recorded"};
+        if (!recorder_) return Error{ErrorKind::Usage, "record stop: nothing is being recorded"};
         auto line = stop_recording();
         if (!line) return line.error();
         return VerbReply{{line.value()}, {}};

@@ -1,17 +1,16 @@
 #include "commands/play/shell.h"
 
 #include <histedit.h>
-#include <poll.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
+#include <chrono>
 #include <clocale>
 #include <cstdio>
-#include <cstdlib>
 #include <cwchar>
 #include <filesystem>
 #include <string_view>
 #include <utility>
+
+#include "base/platform.h"
 
 namespace jawari::host {
 
@@ -20,23 +19,16 @@ namespace {
 constexpr const char* prompt_text = "jawari> ";
 constexpr int history_length = 500;
 /// A key that sends several bytes sends them at once; a lone Escape must not hold the control thread.
-constexpr int key_rest_ms = 50;
+constexpr std::chrono::milliseconds key_rest{50};
 constexpr wchar_t abandon_key = 7;  // Ctrl-G
 
 std::string history_path() {
-    const auto absolute = [](const char* name) {
-        const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nothing here sets variables
-        return value != nullptr && *value == '/' ? std::string(value) : std::string();
-    };
-    std::string base = absolute("XDG_STATE_HOME");
-    if (base.empty() && !absolute("HOME").empty()) base = absolute("HOME") + "/.local/state";
+    const std::string base = platform::user_folder(platform::UserFolder::State);
     return base.empty() ? base : base + "/jawari/history";
 }
 
 std::size_t terminal_columns() {
-    winsize size{};
-    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
-    return size.ws_col;
+    return platform::terminal_columns(platform::standard_output).value_or(80);
 }
 
 /// Columns of UTF-8 text: its characters.
@@ -55,13 +47,13 @@ char* prompt(EditLine* /*editor*/) {
 int read_character(EditLine* /*editor*/, wchar_t* character) {
     std::mbstate_t state{};
     for (;;) {
-        pollfd input{STDIN_FILENO, POLLIN, 0};
-        if (poll(&input, 1, key_rest_ms) <= 0) {
+        platform::Input input{platform::standard_input};
+        if (!platform::wait_for_input({&input, 1}, key_rest)) {
             *character = abandon_key;
             return 1;
         }
         char byte = 0;
-        if (read(STDIN_FILENO, &byte, 1) != 1) return 0;
+        if (platform::read_some(platform::standard_input, {&byte, 1}) != 1) return 0;
         const std::size_t length = std::mbrtowc(character, &byte, 1, &state);
         if (length == static_cast<std::size_t>(-2)) continue;
         if (length == static_cast<std::size_t>(-1)) *character = abandon_key;
@@ -111,7 +103,8 @@ unsigned char complete(EditLine* line, int /*key*/) {
 }  // namespace
 
 bool Shell::is_possible() {
-    return isatty(STDIN_FILENO) == 1 && isatty(STDOUT_FILENO) == 1;
+    return platform::is_terminal(platform::standard_input) &&
+           platform::is_terminal(platform::standard_output);
 }
 
 Shell::Shell(PresetNames presets) : editor_(std::make_unique<Editor>()) {
@@ -163,8 +156,9 @@ std::optional<std::string> Shell::take_input() {
     const char* text = el_gets(editor_->line, &count);
     if (text == nullptr || count <= 0) {
         // Nothing yet, or the terminal is gone: then it stays readable without a character.
-        pollfd input{STDIN_FILENO, POLLIN, 0};
-        if (poll(&input, 1, 0) > 0 && (input.revents & (POLLHUP | POLLERR)) != 0) editor_->ended = true;
+        platform::Input input{platform::standard_input};
+        if (platform::wait_for_input({&input, 1}, std::chrono::milliseconds(0)) && input.hung_up)
+            editor_->ended = true;
         return std::nullopt;
     }
     const std::string line(text, static_cast<std::size_t>(count));

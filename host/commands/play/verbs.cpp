@@ -200,7 +200,7 @@ Outcome<std::vector<std::string>> split_words(std::string_view line) {
             words.back() += c;
         }
     }
-    if (in_quotes) return Error{ExitCode::Usage, "a double quote is left open"};
+    if (in_quotes) return Error{ErrorKind::Usage, "a double quote is left open"};
     return words;
 }
 

@@ -69,7 +69,7 @@ struct VerbCall {
 };
 
 /// Checks the number and the kinds of arguments; a number may come as text. Ranges are the session's affair,
-/// except that every number is finite. Errors have the exit code Usage.
+/// except that every number is finite. Errors are of kind Usage.
 Outcome<VerbCall> make_call(std::string_view name, const std::vector<VerbValue>& arguments);
 
 /// Words separated by blanks; "double quotes" keep blanks, \ takes the next character as it is. Fails if a

@@ -209,7 +209,7 @@ MaybeError print_results(const std::vector<RenderJob>& jobs, const RenderOptions
         const auto& result = workers.result(i);
         if (!result) continue;
         if (!*result) {
-            if (last) report(*last);
+            if (last) report(last->message);
             last = result->error();
             continue;
         }

@@ -68,7 +68,7 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
     }
     [[nodiscard]] std::string place() const;
     bool fail(const std::string& problem) {
-        error = Error{ExitCode::InvalidInput, file_ + ": " + problem};
+        error = Error{ErrorKind::InvalidInput, file_ + ": " + problem};
         return false;
     }
 
@@ -150,7 +150,7 @@ bool Builder::parse_error(std::size_t offset, const std::string& last_token,
     const std::string word = lower_case(word_around(text_, offset));
     if (word.starts_with("nan") || word.starts_with("inf"))
         reason += " (NaN and Infinity are not JSON; allowed: finite numbers)";
-    error = Error{ExitCode::InvalidInput, file_ + ":" + line_and_column(text_, offset) + ": " + reason};
+    error = Error{ErrorKind::InvalidInput, file_ + ":" + line_and_column(text_, offset) + ": " + reason};
     return false;
 }
 
@@ -158,7 +158,7 @@ bool Builder::parse_error(std::size_t offset, const std::string& last_token,
 
 Outcome<Value> parse(std::string_view text, const std::string& file) {
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
-        return Error{ExitCode::InvalidInput, file + ": the file is empty (allowed: a JSON object)"};
+        return Error{ErrorKind::InvalidInput, file + ": the file is empty (allowed: a JSON object)"};
     Builder builder(text, file);
     if (!nlohmann::json::sax_parse(text.begin(), text.end(), &builder)) return *builder.error;
     return std::move(builder.document);

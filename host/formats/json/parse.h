@@ -19,7 +19,7 @@ inline constexpr std::size_t values = 4'000'000;   ///< in the whole file
 }  // namespace limits
 
 /// Strict JSON (RFC 8259): no comments, no NaN, nothing after the value; duplicate keys are errors.
-/// Errors have the exit code InvalidInput and read `FILE:LINE:COLUMN: what is wrong`, or name the path of a
+/// Errors are of kind InvalidInput and read `FILE:LINE:COLUMN: what is wrong`, or name the path of a
 /// duplicate key.
 Outcome<Value> parse(std::string_view text, const std::string& file);
 

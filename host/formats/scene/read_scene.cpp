@@ -67,8 +67,8 @@ void read_document(const json::Value& document, Scene& scene, json::Problems& pr
 }
 
 Error unknown_scene(const std::string& argument) {
-    return {ExitCode::File, argument + ": no such file, and no built-in scene of that name (built-in: " +
-                                join(builtin_scene_names()) + ")"};
+    return {ErrorKind::File, argument + ": no such file, and no built-in scene of that name (built-in: " +
+                                 join(builtin_scene_names()) + ")"};
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ TEST(OutputFile, UnusablePathsAreFileErrors) {
           folder.file("ends/"), std::string(), folder.file(std::string(300, 'x') + ".csv")}) {
         const auto created = OutputFile::create(path);
         ASSERT_FALSE(created) << path;
-        EXPECT_EQ(created.error().code, ExitCode::File);
+        EXPECT_EQ(created.error().kind, ErrorKind::File);
         EXPECT_TRUE(created.error().message.starts_with(path + ": ")) << created.error().message;
     }
     EXPECT_EQ(folder.names(), Names{"file"});
@@ -119,7 +119,7 @@ TEST(OutputFile, FullDiskIsAnError) {
     ASSERT_FALSE(file.write("text"));  // still in the buffer
     const auto error = file.commit();
     ASSERT_TRUE(error);
-    EXPECT_EQ(error->code, ExitCode::File);
+    EXPECT_EQ(error->kind, ErrorKind::File);
     EXPECT_EQ(error->message, "/dev/full: No space left on device");
 }
 

@@ -21,7 +21,7 @@ TEST(MatchName, TakesNumbersWholeNamesAndParts) {
 TEST(MatchName, RefusesUnknownAndAmbiguousOnesInOneLine) {
     const auto unknown = match_name(cards, "Focusrite\n", "audio device");
     ASSERT_FALSE(unknown.ok());
-    EXPECT_EQ(unknown.error().code, ExitCode::Device);
+    EXPECT_EQ(unknown.error().kind, ErrorKind::Device);
     EXPECT_EQ(unknown.error().message,
               "\"Focusrite\\x0a\": no audio device has that number or name (0 \"hw:USB Audio\", 1 \"hw:HDA "
               "Intel\", "

@@ -29,8 +29,8 @@ TEST(InstrumentCache, EachPresetIsCompiledOnce) {
 TEST(InstrumentCache, FailuresAreHandedOn) {
     InstrumentCache cache({});
     bool compiled = false;
-    EXPECT_EQ(cache.get("no such", compiled).error().code, ExitCode::File);
-    EXPECT_EQ(cache.get("no such", compiled).error().code, ExitCode::File);
+    EXPECT_EQ(cache.get("no such", compiled).error().kind, ErrorKind::File);
+    EXPECT_EQ(cache.get("no such", compiled).error().kind, ErrorKind::File);
     EXPECT_FALSE(compiled);
 }
 

@@ -112,7 +112,7 @@ TEST_F(PresetLibrary, MissingPresetsNameTheOthers) {
     put("one", "zither", "zither");
     const auto missing = load_preset("zithe");
     ASSERT_FALSE(missing.ok());
-    EXPECT_EQ(missing.error().code, ExitCode::File);
+    EXPECT_EQ(missing.error().kind, ErrorKind::File);
     EXPECT_NE(missing.error().message.find("zithe: no such file, and no preset of that name (presets: "),
               std::string::npos);
     EXPECT_NE(missing.error().message.find("zither)"), std::string::npos);
@@ -122,7 +122,7 @@ TEST_F(PresetLibrary, FaultsNameTheFile) {
     std::filesystem::create_directories(folder.file("data/jawari/presets"));
     const std::string path = folder.write("data/jawari/presets/bad.json", "{");
     const auto bad = load_preset("bad");
-    EXPECT_EQ(bad.error().code, ExitCode::InvalidInput);
+    EXPECT_EQ(bad.error().kind, ErrorKind::InvalidInput);
     EXPECT_EQ(bad.error().message.rfind(path, 0), 0U) << bad.error().message;
 }
 

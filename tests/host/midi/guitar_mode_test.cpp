@@ -28,7 +28,7 @@ TEST(GuitarMode, ChannelsMustSuffice) {
     EXPECT_FALSE(set_guitar_mode(instrument, 10, settings));
     const auto refused = set_guitar_mode(instrument, 11, settings);
     ASSERT_TRUE(refused);
-    EXPECT_EQ(refused->code, ExitCode::Usage);
+    EXPECT_EQ(refused->kind, ErrorKind::Usage);
     EXPECT_NE(refused->message.find("--guitar-mode: 12 (allowed: 1 to 11 for this preset's 6"),
               std::string::npos);
     instrument.strings.resize(20);

@@ -81,7 +81,7 @@ TEST(ReadMidiMap, EachFaultIsNamedWithItsPath) {
     for (const auto& [binding, message] : faults) {
         const auto map = read_midi_map(document(binding), "m.json");
         ASSERT_FALSE(map.ok()) << binding;
-        EXPECT_EQ(map.error().code, ExitCode::InvalidInput);
+        EXPECT_EQ(map.error().kind, ErrorKind::InvalidInput);
         EXPECT_NE(map.error().message.find(message), std::string::npos)
             << map.error().message << "\nexpected: " << message;
     }

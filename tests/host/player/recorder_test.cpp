@@ -145,7 +145,7 @@ TEST(LiveRecorder, ItsMidiHasEveryMessageAtItsFrame) {
     }
     const auto impossible = TakeMidi::create(folder.file("x.mid"), 44101, false);
     ASSERT_FALSE(impossible.ok());
-    EXPECT_EQ(impossible.error().code, ExitCode::Usage);
+    EXPECT_EQ(impossible.error().kind, ErrorKind::Usage);
     EXPECT_FALSE(std::ifstream(folder.file("x.mid")).good());
 }
 
@@ -168,7 +168,7 @@ TEST(LiveRecorder, KeepsAnExistingFile) {
     std::ofstream(settings.sound) << "precious";
     auto refused = LiveRecorder::start(performance.player, settings);
     ASSERT_FALSE(refused.ok());
-    EXPECT_EQ(refused.error().code, ExitCode::File);
+    EXPECT_EQ(refused.error().kind, ErrorKind::File);
     EXPECT_NE(refused.error().message.find("take.wav: exists already"), std::string::npos);
     EXPECT_EQ(test::read_text(settings.sound), "precious");
     settings.overwrite = true;

@@ -150,7 +150,7 @@ TEST_F(Plot, OtherExtensionsAreWrongCommandLines) {
     for (const char* name : {"picture.pdf", "picture", ".png", "a.PNG"}) {
         const auto error = plot::can_plot(name);
         ASSERT_TRUE(error.has_value()) << name;
-        EXPECT_EQ(error->code, ExitCode::Usage);
+        EXPECT_EQ(error->kind, ErrorKind::Usage);
         EXPECT_NE(error->message.find(".svg or .png"), std::string::npos);
     }
     EXPECT_FALSE(plot::can_plot("a.png").has_value());
@@ -159,7 +159,7 @@ TEST_F(Plot, OtherExtensionsAreWrongCommandLines) {
 TEST_F(Plot, FailuresNameTheReasonAndLeaveNoFile) {
     const auto wrong = plot::draw(path("wrong.png"), 100, 100, "plot sin(\n");
     ASSERT_TRUE(wrong.has_value());
-    EXPECT_EQ(wrong->code, ExitCode::File);
+    EXPECT_EQ(wrong->kind, ErrorKind::File);
     EXPECT_NE(wrong->message.find("gnuplot failed"), std::string::npos);
     EXPECT_EQ(wrong->message.find('\n'), std::string::npos);
     EXPECT_EQ(files_left(), 0u);
@@ -171,7 +171,7 @@ TEST_F(Plot, FailuresNameTheReasonAndLeaveNoFile) {
     ::setenv("PATH", search_path.c_str(), 1);
     for (const auto& error : {missing, early}) {
         ASSERT_TRUE(error.has_value());
-        EXPECT_EQ(error->code, ExitCode::File);
+        EXPECT_EQ(error->kind, ErrorKind::File);
         EXPECT_NE(error->message.find("gnuplot is not installed"), std::string::npos);
     }
     EXPECT_EQ(files_left(), 0u);

@@ -49,10 +49,10 @@ TEST(StemFiles, TooManyFilesOrNoFolder) {
     const std::vector<std::string> many(200, "x");
     const auto refused = StemFiles::create(folder.file("stems/"), many, format);
     ASSERT_FALSE(refused.ok());
-    EXPECT_EQ(refused.error().code, ExitCode::Usage);
+    EXPECT_EQ(refused.error().kind, ErrorKind::Usage);
     EXPECT_NE(refused.error().message.find("one file for more than 128 strings, here 200"),
               std::string::npos);
-    EXPECT_EQ(StemFiles::create(folder.file("none/"), {"a"}, format).error().code, ExitCode::File);
+    EXPECT_EQ(StemFiles::create(folder.file("none/"), {"a"}, format).error().kind, ErrorKind::File);
 }
 
 }  // namespace

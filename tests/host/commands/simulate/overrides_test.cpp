@@ -16,12 +16,12 @@ Scene scene_with(const Overrides& overrides) {
     return scene.value();
 }
 
-std::string failure_with(const Overrides& overrides, ExitCode& code) {
+std::string failure_with(const Overrides& overrides, ErrorKind& kind) {
     const Scene scene = scene_with(overrides);
     const auto model = compile(scene.description);
     if (model) return "none";
     const Error error = explain(model.failure(), overrides, scene);
-    code = error.code;
+    kind = error.kind;
     return error.message;
 }
 
@@ -60,35 +60,35 @@ TEST(Overrides, ThetaNeedsTheThetaScheme) {
     overrides.theta = 0.7;
     const auto error = apply_overrides(overrides, scene.value());
     ASSERT_TRUE(error);
-    EXPECT_EQ(error->code, ExitCode::Usage);
+    EXPECT_EQ(error->kind, ErrorKind::Usage);
     EXPECT_EQ(error->message, "--theta: 0.7 (allowed: only together with --scheme theta)");
 }
 
 TEST(Overrides, RatesThatDoNotFitNameTheNearestContactRate) {
-    ExitCode code{};
+    ErrorKind kind{};
     Overrides contact;
     contact.contact_rate_hz = 100001;
-    EXPECT_EQ(failure_with(contact, code),
+    EXPECT_EQ(failure_with(contact, kind),
               "--contact-rate: 100001 (allowed: an integer multiple of the output rate 8000, the nearest "
               "being 104000)");
-    EXPECT_EQ(code, ExitCode::Usage);
+    EXPECT_EQ(kind, ErrorKind::Usage);
     Overrides output;
     output.output_rate_hz = 44100;
-    EXPECT_EQ(failure_with(output, code),
+    EXPECT_EQ(failure_with(output, kind),
               "--output-rate: 44100 (allowed: a rate that divides contact_rate_hz 80000 of f.json, or "
               "together with "
               "--contact-rate 88200)");
-    EXPECT_EQ(code, ExitCode::Usage);
+    EXPECT_EQ(kind, ErrorKind::Usage);
 }
 
 TEST(Overrides, FailuresNameWhicheverSaidIt) {
-    ExitCode code{};
+    ErrorKind kind{};
     Overrides scheme;
     scheme.scheme = Scheme::Theta;
     scheme.law = ImpactLaw::Passive;
-    EXPECT_EQ(failure_with(scheme, code),
+    EXPECT_EQ(failure_with(scheme, kind),
               "--law: passive (allowed: newton, the only law of the theta scheme)");
-    EXPECT_EQ(code, ExitCode::Usage);
+    EXPECT_EQ(kind, ErrorKind::Usage);
 
     auto passive = read_scene(test::replaced(test::valid_scene, "newton", "passive"), "f.json");
     scheme.law.reset();

@@ -10,7 +10,7 @@ namespace {
 std::string error_of(const std::string& text) {
     const auto document = parse(text, "f.json");
     if (document) return "no error";
-    EXPECT_EQ(document.error().code, ExitCode::InvalidInput);
+    EXPECT_EQ(document.error().kind, ErrorKind::InvalidInput);
     EXPECT_EQ(document.error().message.find('\n'), std::string::npos);
     return document.error().message;
 }
@@ -90,14 +90,14 @@ TEST(JsonParse, FilesAreBoundedAndUnreadableOnesReported) {
     const test::TemporaryFolder folder;
     const auto missing = parse_file(folder.file("none.json"));
     ASSERT_FALSE(missing);
-    EXPECT_EQ(missing.error().code, ExitCode::File);
+    EXPECT_EQ(missing.error().kind, ErrorKind::File);
     EXPECT_EQ(missing.error().message, folder.file("none.json") + ": No such file or directory");
     const auto directory = parse_file(folder.file("."));
     ASSERT_FALSE(directory);
-    EXPECT_EQ(directory.error().code, ExitCode::File);
+    EXPECT_EQ(directory.error().kind, ErrorKind::File);
     const auto endless = parse_file("/dev/zero");
     ASSERT_FALSE(endless);
-    EXPECT_EQ(endless.error().code, ExitCode::InvalidInput);
+    EXPECT_EQ(endless.error().kind, ErrorKind::InvalidInput);
     EXPECT_EQ(endless.error().message, "/dev/zero: the file is too long (allowed: at most 67108864 bytes)");
 }
 

@@ -55,7 +55,7 @@ std::string with(const std::string& from, const std::string& to) {
 std::string message_of(const std::string& text) {
     const auto preset = read_preset(text, "p.json");
     if (!preset) {
-        EXPECT_EQ(preset.error().code, ExitCode::InvalidInput);
+        EXPECT_EQ(preset.error().kind, ErrorKind::InvalidInput);
         return preset.error().message;
     }
     const auto model = compile_instrument(preset.value().instrument, 48000);
@@ -237,7 +237,7 @@ TEST(ReadPreset, FilesAreFoundBeforeBuiltInNames) {
     const test::TemporaryFolder folder;
     EXPECT_EQ(load_preset(folder.write("my.json", valid_preset)).value().instrument.name, "one string");
     EXPECT_EQ(load_preset("bass-fretted").value().file, "bass-fretted");
-    EXPECT_EQ(load_preset(folder.file("absent")).error().code, ExitCode::File);
+    EXPECT_EQ(load_preset(folder.file("absent")).error().kind, ErrorKind::File);
 }
 
 TEST(FactoryPresets, AllLoadCompileAndSound) {

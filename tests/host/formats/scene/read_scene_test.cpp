@@ -184,7 +184,7 @@ TEST_P(WrongScene, IsRefusedWithPathValueAndRange) {
     const Wrong& wrong = GetParam();
     const auto scene = read_scene(replaced(valid_scene, wrong.from, wrong.to), "f.json");
     ASSERT_FALSE(scene);
-    EXPECT_EQ(scene.error().code, ExitCode::InvalidInput);
+    EXPECT_EQ(scene.error().kind, ErrorKind::InvalidInput);
     EXPECT_EQ(scene.error().message, std::string("f.json: ") + wrong.message);
 }
 
@@ -315,7 +315,7 @@ TEST(LoadScene, AFileComesBeforeABuiltInScene) {
     EXPECT_EQ(scene.value().file, folder.file("mine.json"));
     const auto unknown = load_scene(folder.file("none.json"));
     ASSERT_FALSE(unknown);
-    EXPECT_EQ(unknown.error().code, ExitCode::File);
+    EXPECT_EQ(unknown.error().kind, ErrorKind::File);
     EXPECT_NE(unknown.error().message.find("lab/bass, lab/fretless, lab/one-contact"), std::string::npos);
 }
 

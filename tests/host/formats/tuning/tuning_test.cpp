@@ -130,9 +130,9 @@ TEST(Tuning, FilesAreNamedInMessages) {
     EXPECT_EQ(load_tuning(scale, map).value()[69], 440.0);
     const auto bad = load_tuning(folder.write("bad.scl", "x\n1\n0/1\n"), map);
     ASSERT_FALSE(bad.ok());
-    EXPECT_EQ(bad.error().code, ExitCode::InvalidInput);
+    EXPECT_EQ(bad.error().kind, ErrorKind::InvalidInput);
     EXPECT_NE(bad.error().message.find("bad.scl: line 3: \"0/1\""), std::string::npos);
-    EXPECT_EQ(load_tuning(scale, folder.file("none.kbm")).error().code, ExitCode::File);
+    EXPECT_EQ(load_tuning(scale, folder.file("none.kbm")).error().kind, ErrorKind::File);
     const auto bad_map = load_tuning(scale, folder.write("bad.kbm", "2\n0\n127\n60\n61\n440\n7\n0\nx\n"));
     EXPECT_NE(bad_map.error().message.find("bad.kbm: reference key: 61"), std::string::npos);
 }
