@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and renders the demo pieces and a plucked string to out/.
+# Installs what the program needs, builds it, and renders the demo pieces and a plucked string to out/.
 # Usage: scripts/demo.sh
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
 scripts/setup.sh
-cmake --preset release
+# The folder of scripts/test.sh, so that it finds the program built; there without tests, unless they were asked for before.
+[[ -e build/release/build.ninja ]] || cmake --preset release -DJAWARI_BUILD_TESTS=OFF -DJAWARI_BUILD_BENCHMARKS=OFF
 cmake --build --preset release --parallel "$(nproc)" --target jawari
 
 jawari=build/release/bin/jawari

@@ -1,111 +1,164 @@
 #!/usr/bin/env bash
-# Installs what building and testing need on Debian 12: the one list of every dependency.
-# Usage: scripts/setup.sh [--full] [--bench] [--coverage] [--realtime]
+# Installs the packages that a use of this tree needs: the one list of every dependency. For Debian 12, Debian 13 and the
+# Ubuntus made from them; which names a system has is asked of apt, not of its release.
+# Usage: scripts/setup.sh [--test] [--full] [--bench] [--coverage] [--realtime] [--compilers]
+#   (none): what building and running the program needs
+#   --test: also what scripts/test.sh needs
 #   --full: also what scripts/test.sh --full needs (lint, fuzzing, instruction counts)
 #   --bench: also what scripts/bench.sh needs (plots, instruction counts, other people's instruments)
 #   --coverage: also what scripts/coverage.sh needs
 #   --realtime: also what scripts/realtime_sanitizer.sh needs (a compiler of 2025, from Debian's security archive)
-# Asks nothing; does nothing when all is there.
+#   --compilers: also every compiler that scripts/check_compilers.sh tries
+# Asks nothing; does nothing when all is there. A package that only an oracle or an extra needs is optional: where the system
+# does not have it, a line says what is left out.
 set -euo pipefail
 
-packages=(
-    # -- build
-    build-essential   # g++ 12
-    cmake             # 3.25
-    ninja-build       # generator of the presets
-    pkg-config        # finds libhwy and libsndfile
-    git               # version control; the clone itself
-    # -- engine
-    libeigen3-dev     # dense linear algebra while compiling models
-    libhwy-dev        # SIMD kernels with run-time dispatch (Highway)
-    # -- program
-    libcli11-dev      # command line
-    nlohmann-json3-dev # scenes and presets
-    libsndfile1-dev   # WAV
-    libhdf5-dev       # .h5 recordings
-    libboost-dev      # Boost.Lockfree: queues between threads; in tests Boost.Multiprecision: 100-digit references
-    gnuplot-nox       # --plot
-    fonts-dejavu-core # its labels
-    librtaudio-dev    # play: audio devices
-    librtmidi-dev     # play: MIDI devices
-    libjack-jackd2-dev # the JACK that the two are used with here (they would take the older one)
-    libedit-dev       # play: shell
-    liblo-dev         # play: Open Sound Control
-    # -- tests and benchmarks
-    libgtest-dev      # GoogleTest
-    libbenchmark-dev  # Google Benchmark
-    midicsv           # independent reading of MIDI files
-    jackd2            # live tests: a sound server without hardware
-    python3           # test scripts
-    python3-numpy     # reference simulations, pitch measurement
-    python3-h5py      # independent reading of .h5 recordings
-    python3-mpmath    # high-precision references
-    python3-siconos   # the published nonsmooth solver, as an oracle
-)
-packages_full=(
-    clang-format      # scripts/lint.sh
-    clang-tidy        # scripts/lint.sh
-    clang             # libFuzzer builds
-    g++-aarch64-linux-gnu # scripts/check_neon.sh
-    libclang-rt-14-dev # libFuzzer and sanitizer run times
-    openttd-openmsx   # scripts/real_midi.py: music that nobody here wrote
-    valgrind          # instruction counts
-)
-packages_bench=(
-    valgrind          # instruction counts
-    python3-matplotlib # plots of docs/benchmarks.md
-    csound            # peer: plucked strings, prepared piano
-    libstk-dev        # peer: plucked strings
-    faust             # peer: physical models
-)
-packages_coverage=(
-    clang             # counts what runs
-    libclang-rt-14-dev # its run time
-    llvm              # sums it up
-)
-packages_realtime=(
-    clang-22          # -Wfunction-effects, -fsanitize=realtime
-    libclang-rt-22-dev # the sanitizer's run time
-    llvm-22           # llvm-symbolizer: lines instead of addresses
-)
+# use[?]  package[|package...]  purpose, or after "?" what is left out without it. Of several packages the first that there is;
+# CLANG stands for the version of the system's clang.
+list() {
+    cat << 'LIST'
+program      build-essential         C++20 compiler
+program      cmake                   3.25 or later
+program      ninja-build             generator of the presets
+program      pkg-config              finds libhwy, libsndfile and what play needs
+program      libeigen3-dev           dense linear algebra while compiling models
+program      libhwy-dev              SIMD kernels with run-time dispatch (Highway)
+program      libcli11-dev            command line
+program      nlohmann-json3-dev      scenes and presets
+program      libsndfile1-dev         WAV
+program      libhdf5-dev             .h5 recordings
+program      libboost-dev            Boost.Lockfree: queues between threads; tests: Boost.Multiprecision, 100-digit references
+program      gnuplot-nox             --plot
+program      fonts-dejavu-core       labels of plots
+program      librtaudio-dev          play: audio devices
+program      librtmidi-dev           play: MIDI devices
+program      libjack-jackd2-dev      the JACK that the two are used with here (they would take the older one)
+program      libedit-dev             play: shell
+program      liblo-dev               play: Open Sound Control
+program      python3                 names of the demo pieces
+test         git                     which files are tracked
+test         libgtest-dev            GoogleTest
+test         libbenchmark-dev        Google Benchmark
+test         python3-numpy           reference simulations, measurement of pitch and level
+test?        python3-siconos         the published nonsmooth solver: its tests are skipped, scripts/bench.sh siconos cannot run
+test?        python3-mpmath          high-precision references: their tests are skipped
+test?        python3-h5py            independent reader of .h5 recordings: its tests are skipped
+test?        midicsv                 independent reader of MIDI files: its tests are skipped
+test?        jackd2                  sound server without hardware: live.* are skipped
+full         clang                   libFuzzer and sanitizer builds
+full         clang-format            scripts/lint.sh
+full         clang-tidy              scripts/lint.sh
+full         libclang-rt-CLANG-dev|libclang-common-CLANG-dev libFuzzer and sanitizer run times
+full         valgrind                instruction counts
+full?        g++-aarch64-linux-gnu   cross compiler: scripts/check_neon.sh cannot run
+full?        openttd-openmsx         music that nobody here wrote: scripts/real_midi.py cannot run
+bench        valgrind                instruction counts
+bench        python3-matplotlib      plots of docs/benchmarks.md
+bench?       csound                  peer (plucked strings, prepared piano): scripts/bench.sh peers cannot run
+bench?       libstk-dev              peer (plucked strings): scripts/bench.sh peers cannot run
+bench?       faust                   peer (physical models): scripts/bench.sh peers cannot run
+coverage     clang                   counts what runs
+coverage     libclang-rt-CLANG-dev|libclang-common-CLANG-dev its run time
+coverage     llvm                    sums it up
+realtime     clang-22                -Wfunction-effects, -fsanitize=realtime
+realtime     libclang-rt-22-dev      the sanitizer's run time
+realtime     llvm-22                 llvm-symbolizer: lines instead of addresses
+compilers?   g++-12                  not tried
+compilers?   g++-13                  not tried
+compilers?   g++-14                  not tried
+compilers?   clang-14                not tried
+compilers?   clang-15                not tried
+compilers?   clang-16                not tried
+compilers?   clang-17                not tried
+compilers?   clang-18                not tried
+compilers?   clang-19                not tried
+LIST
+}
 
+uses=" program "
 for argument in "$@"; do
     case "$argument" in
-        --full) packages+=("${packages_full[@]}") ;;
-        --bench) packages+=("${packages_bench[@]}") ;;
-        --coverage) packages+=("${packages_coverage[@]}") ;;
-        --realtime) packages+=("${packages_realtime[@]}") ;;
-        *) echo "setup.sh: unknown argument '$argument' (allowed: --full, --bench, --coverage, --realtime)" >&2; exit 2 ;;
+        --test) uses+="test " ;;
+        --full) uses+="test full " ;;
+        --bench) uses+="test bench " ;;
+        --coverage) uses+="test coverage " ;;
+        --realtime) uses+="test realtime " ;;
+        --compilers) uses+="test compilers " ;;
+        *) echo "setup.sh: unknown argument '$argument' (allowed: --test, --full, --bench, --coverage, --realtime, --compilers)" >&2; exit 2 ;;
     esac
 done
 
+# wanted: the lines of the list for these uses.
+wanted() {
+    local use names purpose
+    while read -r use names purpose; do
+        [[ $uses == *" ${use%\?} "* ]] && printf '%s %s %s\n' "$use" "$names" "$purpose"
+    done < <(list)
+    return 0
+}
+
 if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
-    echo "setup.sh: no apt here; install the equivalents of: ${packages[*]}" >&2
+    echo "setup.sh: no apt here; install the equivalents of these (? marks what can be done without):" >&2
+    wanted >&2
     exit 1
 fi
 
-missing=()
-for package in "${packages[@]}"; do
-    status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2> /dev/null || true)
-    [[ "$status" == installed ]] || missing+=("$package")
-done
-if ((${#missing[@]} == 0)); then
-    echo "setup: all ${#packages[@]} packages are installed"
-    exit 0
-fi
+declare -A status
+while read -r name state; do status[$name]=$state; done < <(dpkg-query -W -f '${Package} ${db:Status-Status}\n')
+installed() { [[ ${status[$1]:-} == installed ]]; }
+available() { [[ $(apt-cache policy "$1" 2> /dev/null) =~ Candidate:\ [^\(] ]]; }
+clang_version() { apt-cache depends clang 2> /dev/null | sed -n 's/.*Depends: clang-\([0-9]*\)$/\1/p'; }
+
+# choose: sorts what is wanted into packages (there or to be had), left_out (optional ones) and unknown.
+choose() {
+    local use names purpose name found clang
+    clang=$(clang_version)
+    packages=() missing=() left_out=() unknown=()
+    while read -r use names purpose; do
+        found=
+        for name in ${names//|/ }; do
+            name=${name/CLANG/$clang}
+            if installed "$name"; then
+                found=$name
+            elif available "$name"; then
+                found=$name
+                missing+=("$name")
+            fi
+            [[ -n $found ]] && break
+        done
+        if [[ -n $found ]]; then
+            packages+=("$found")
+        elif [[ $use == *\? ]]; then
+            left_out+=("setup: left out, because this system has no ${names//|/ or }: $purpose")
+        else
+            unknown+=("$names")
+        fi
+    done < <(wanted)
+}
 
 as_root=()
-if [[ $(id -u) != 0 ]]; then
-    if ! command -v sudo > /dev/null; then
-        echo "setup.sh: not root and no sudo; as root: apt-get install ${missing[*]}" >&2
+[[ $(id -u) == 0 ]] || as_root=(sudo)
+apt_get() {
+    if [[ $(id -u) != 0 ]] && ! command -v sudo > /dev/null; then
+        echo "setup.sh: not root and no sudo; as root: apt-get install ${missing[*]} ${unknown[*]}" >&2
         exit 1
     fi
-    as_root=(sudo)
-fi
-echo "setup: installing ${missing[*]}"
-# All are named, not the missing ones alone: else apt may remove one of them to make room for another.
-apt_get() {
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 "$@" < /dev/null
 }
-apt_get update -qq
-apt_get install -y -qq --no-install-recommends "${packages[@]}"
+
+choose
+if ((${#missing[@]} + ${#unknown[@]})); then
+    apt_get update -qq
+    choose
+    if ((${#unknown[@]})); then
+        echo "setup.sh: apt knows no ${unknown[*]} here (on Ubuntu they are in universe)" >&2
+        exit 1
+    fi
+fi
+if ((${#missing[@]})); then
+    echo "setup: installing ${missing[*]}"
+    # All are named, not the missing ones alone: else apt may remove one of them to make room for another.
+    apt_get install -y -qq --no-install-recommends "${packages[@]}"
+fi
+echo "setup: all ${#packages[@]} packages are installed"
+((${#left_out[@]} == 0)) || printf '%s\n' "${left_out[@]}"

@@ -53,8 +53,8 @@ build() {
 tests() {
     local preset=$1
     shift
-    stage "tests ($preset)" ctest --preset "$preset" --no-tests=error "$@"
-    test_runs+=("" "$preset:" "$(sed -n '/% tests passed/,$p' "$logs/last")")
+    stage "tests ($preset)" ctest --preset "$preset" --no-tests=error --output-junit "$logs/junit.xml" "$@"
+    test_runs+=("" "$preset:" "$(sed -n '/% tests passed/,$p' "$logs/last")" "$(scripts/skipped_tests.py "$logs/junit.xml")")
 }
 
 # Each target starts from its seeds and a fresh corpus; a crash leaves its input in build/asan-ubsan/.
@@ -70,9 +70,7 @@ fuzz() {
     done
 }
 
-setup_arguments=()
-$full && setup_arguments=(--full)
-stage "setup" scripts/setup.sh "${setup_arguments[@]}" || exit 1
+stage "setup" scripts/setup.sh "$($full && echo --full || echo --test)" || exit 1
 configure_arguments=(-DJAWARI_WARNINGS_AS_ERRORS=$($full && echo ON || echo OFF))
 stage "build (release)" build release && tests release
 

@@ -9,7 +9,7 @@ Peers: `siconos` (MoreauJeanBilbaoOSI for the exact scheme, MoreauJeanOSI for th
 
 Compared at every step: displacement probes, relative to the largest displacement; velocity probes, relative to the largest
 velocity; the impulse of every contact, relative to the largest impulse. Exit code 0 if all agree to --tolerance and the
-run had at least --min-impulses impulses, 1 if not, 2 if something could not be run.
+run had at least --min-impulses impulses, 1 if not, 2 if something could not be run, 77 if the peer is not installed.
 """
 
 import argparse
@@ -23,6 +23,7 @@ import time
 import numpy as np
 
 import jawari_scene
+import oracle
 
 
 def arguments():
@@ -81,20 +82,16 @@ def run_jawari(scene, options):
         return np.loadtxt(csv_path, delimiter=",", skiprows=1)
 
 
-def run_peer(string, step, steps, options):
+def peer_of(options):
+    """simulate(string, step, steps) of the peer."""
     if options.peer == "siconos":
         if options.law != "newton":
             print("Siconos has Newton's law only; use --peer reference", file=sys.stderr)
             sys.exit(2)
-        try:
-            import siconos_oracle
-        except ImportError as error:
-            print(f"python3-siconos is missing ({error}); scripts/setup.sh installs it", file=sys.stderr)
-            sys.exit(2)
-        return siconos_oracle.simulate(string, step, steps, options.scheme, options.theta)
-    import reference_step
-
-    return reference_step.simulate(string, step, steps, options.scheme, options.theta, options.law)
+        siconos = oracle.need("siconos_oracle", "python3-siconos")
+        return lambda string, step, steps: siconos.simulate(string, step, steps, options.scheme, options.theta)
+    reference = oracle.need("reference_step", "python3-mpmath")
+    return lambda string, step, steps: reference.simulate(string, step, steps, options.scheme, options.theta, options.law)
 
 
 def probe_values(string, result):
@@ -110,6 +107,7 @@ def relative_error(ours, theirs):
 
 def main():
     options = arguments()
+    simulate = peer_of(options)
     scene, step, steps = stepwise_scene(jawari_scene.read_scene(options.scene), options)
     started = time.perf_counter()
     table = run_jawari(scene, options)
@@ -121,7 +119,7 @@ def main():
     restitution = options.restitution if options.peer_restitution is None else options.peer_restitution
     string = jawari_scene.read_string(scene["strings"][0], restitution)
     started = time.perf_counter()
-    result = run_peer(string, step, steps, options)
+    result = simulate(string, step, steps)
     peer_s = time.perf_counter() - started
     theirs, is_displacement = probe_values(string, result)
     count = theirs.shape[1]

@@ -18,11 +18,14 @@ import subprocess
 import sys
 import tempfile
 
-import h5py
 import numpy as np
 
 import jawari_scene
-import reference_step
+import oracle
+
+h5py = oracle.need("h5py", "python3-h5py")
+reference_step = oracle.need("reference_step", "python3-mpmath")
+siconos_oracle = oracle.need("siconos_oracle", "python3-siconos")
 
 LAWS = ["newton", "passive", "signorini", "paoli-schatzman"]
 
@@ -62,8 +65,6 @@ def record(gaps, impulses, energies, works):
 
 
 def by_siconos(scene, steps, restitution):
-    import siconos_oracle
-
     string = jawari_scene.read_string(scene["strings"][0], restitution)
     h = 1 / scene["contact_rate_hz"]
     result = siconos_oracle.simulate(string, h, steps)

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 namespace jawari::host {
@@ -20,10 +21,11 @@ constexpr std::size_t time_tag_bytes = 8;
 constexpr std::size_t size_bytes = 4;
 constexpr int deepest_bundle = 4;
 
+/// lo_message is a pointer to void in liblo 0.31, to an opaque struct in 0.32.
 struct FreeMessage {
-    void operator()(void* message) const { lo_message_free(message); }
+    void operator()(lo_message message) const { lo_message_free(message); }
 };
-using Message = std::unique_ptr<void, FreeMessage>;
+using Message = std::unique_ptr<std::remove_pointer_t<lo_message>, FreeMessage>;
 
 Error malformed(const std::string& what) {
     return {ErrorKind::Usage, "OSC: " + what};

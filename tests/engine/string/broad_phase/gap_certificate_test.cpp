@@ -41,6 +41,7 @@ struct FreeMotion {
     Number q, v;
 
     FreeMotion(const StringModel& model, double q0, double v0) : h(model.step_s), q(q0), v(v0) {
+        using std::cos, std::exp, std::sqrt;  // of long double; those of Digits50 are found by their argument
         const Number omega = model.omega[0], sigma = model.sigma[0];
         e = exp(Number(-2 * sigma * h));
         if (sigma <= omega) {
