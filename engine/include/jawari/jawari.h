@@ -15,6 +15,7 @@
 #include "jawari/result.h"
 #include "jawari/scene/compile.h"
 #include "jawari/scene/cost.h"
+#include "jawari/scene/counters.h"
 #include "jawari/scene/description.h"
 #include "jawari/scene/energy.h"
 #include "jawari/scene/modes.h"

@@ -8,47 +8,11 @@
 #include "jawari/detail/aligned.h"
 #include "jawari/detail/lcp.h"
 #include "jawari/detail/string_model.h"
+#include "jawari/scene/counters.h"
+#include "jawari/scene/energy.h"
 #include "jawari/scene/skipping.h"
 
 namespace jawari {
-
-/// What happened since make_state().
-struct Counters {
-    std::uint64_t steps = 0;       ///< contact steps simulated
-    std::uint64_t candidates = 0;  ///< evaluated contacts that were candidates of their step's law
-    std::uint64_t impulses = 0;    ///< impulses > 0
-    std::uint64_t solves = 0;      ///< complementarity problems with a violated candidate
-    std::uint64_t truncated_solves =
-        0;                            ///< solves stopped by the bound on operations, made passive by scaling
-    std::uint64_t flown_frames = 0;   ///< frames crossed by free flight
-    std::uint64_t near_frames = 0;    ///< frames stepped finely for the contacts that might close
-    std::uint64_t asleep_frames = 0;  ///< frames that cost nothing
-    std::uint64_t nonfinite_resets =
-        0;  ///< times the string was put to rest because its state was not finite
-    double worst_residual_m =
-        0;  ///< largest LCP residual max_c |min(y - tau, A_cc lambda)| of finished solves
-    double worst_penetration_m = 0;  ///< largest -gap
-};
-
-/// Sums, and the worst of residuals and penetrations.
-void accumulate(const Counters& more, Counters& sum) noexcept;
-
-/// Energies in joules, accumulated while metering is on (Metering::Step).
-struct EnergyMeter {
-    double initial = 0;          ///< H at make_state()
-    double highest = 0;          ///< largest H seen (each step with Metering::Step, else each frame)
-    double dissipated = 0;       ///< by the string's own losses, >= 0
-    double contact_work = 0;     ///< sum lambda (y+ - y_before)/(2h): work of impacts on the string
-    double player_work = 0;      ///< sum lambda (b+ - b_before)/(2h): work of moving obstacles
-    double worst_imbalance = 0;  ///< largest |H+ - H + losses - works| of one step
-    double worst_rise = 0;       ///< largest H+ - H - player's work of one step
-};
-
-enum class Metering {
-    Off,
-    Frame,  ///< H at the end of each frame in which it may have risen
-    Step    ///< the whole balance at each step; about twice the cost
-};
 
 /// Contact coordinates; arrays over the model's contacts, padded to contact_stride.
 struct ContactState {

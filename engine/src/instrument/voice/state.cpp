@@ -46,7 +46,7 @@ Counters contact_counters(const InstrumentState& state) {
     Counters sum = state.finished;
     for (const InstrumentStringState& string : state.strings) {
         for (const Voice& voice : string.voices) {
-            if (voice.phase != VoicePhase::Idle) accumulate(voice.string.counters, sum);
+            if (voice.phase != VoicePhase::Idle) sum += voice.string.counters;
         }
     }
     return sum;

@@ -21,7 +21,7 @@ constexpr std::uint64_t rest_check_frames = 64;
 constexpr double finger_share = 0.5;
 
 void finish(Voice& voice, InstrumentState& state) {
-    accumulate(voice.string.counters, state.finished);
+    state.finished += voice.string.counters;
     voice.string.counters = {};
     voice.phase = VoicePhase::Idle;
     voice.fading = false;
