@@ -238,6 +238,10 @@ StringState make_string_state(const StringModel& model, Metering metering = Mete
 /// Back to t = 0, counters and meters cleared; does not allocate.
 void reset(const StringModel& model, StringState& state) noexcept;
 
+/// Sets the whole scene back to t = 0: every string and SceneState::frame. `state` must have been made for
+/// `model`. Threads: one at a time per state; realtime-safe.
+void reset(const SceneModel& model, SceneState& state) noexcept;
+
 /// To be called when displacement, velocity, the model or the force row were changed from outside between
 /// frames: the gaps are computed anew, every bound is forgotten, a sleeping string wakes.
 void notice_change(const StringModel& model, StringState& state) noexcept;

@@ -15,7 +15,7 @@
 namespace jawari {
 namespace {
 
-/// Frames between two looks at a motion's energy.
+/// Output frames between two looks at a voice's energy.
 constexpr std::uint64_t rest_check_frames = 64;
 /// A finger that comes down on a ringing string has at least this share of its wave impedance.
 constexpr double finger_share = 0.5;
@@ -61,12 +61,15 @@ void follow_gains(Voice& voice, double smoothing) {
     follow(voice.targets.mix, smoothing, voice.gains.mix);
 }
 
+/// A negative `action` raises what the string clears up to this height, just below the rest line [m].
+constexpr double highest_lowered_m = -1e-5;
+
 void lower_obstacles(const StoppedStringModel& stopped, StringState& string, double action_m) {
     if (action_m == 0) return;
     for (const std::uint32_t c : stopped.action_contacts) {
-        // The string rests on what lifts it; only what it clears may move, and never above its rest line.
+        // The string rests on what lifts it; only what it clears may move, and never to its rest line.
         const double height = stopped.string.contact_height[c];
-        string.contact.height[c] = std::min(height - action_m, std::max(height, -1e-5));
+        string.contact.height[c] = std::min(height - action_m, std::max(height, highest_lowered_m));
         string.contact.height_before[c] = string.contact.height[c];
     }
     notice_change(stopped.string, string);
@@ -126,6 +129,24 @@ Voice make_voice(const StringSizes& sizes) {
     voice.touches = make_touch_state(sizes.stride);
     voice.bend = make_bend_state(sizes);
     return voice;
+}
+
+void reset_voice(Voice& voice) JAWARI_REALTIME {
+    voice.phase = VoicePhase::Idle;
+    voice.fret = 0;
+    voice.channel = 0;
+    voice.string.counters = {};
+    lift_all_touches(voice.touches);
+    forget_bend(voice);
+    voice.bend.target = 0;
+    voice.slide = {};
+    voice.age = 0;
+    voice.fading = false;
+    voice.rests_on_obstacles = false;
+    voice.fade_frame = 0;
+    voice.rise_frame = 0;
+    voice.gains = {};
+    voice.targets = {};
 }
 
 void start_voice(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice,
@@ -196,7 +217,7 @@ VoiceSignals advance_voice(const InstrumentModel& model, const InstrumentStringM
         signals.bridge_N = gain * voice.gains.body * bridge_force(stopped, voice.string);
     const bool finite = std::isfinite(signals.left + signals.right + signals.bridge_N);
     if (!finite || voice.string.counters.nonfinite_resets != resets) {
-        // The string is at rest, but what has lost it may be a hand, a hammer or a gain: the motion ends, and
+        // The string is at rest, but what has lost it may be a hand, a hammer or a gain: the voice ends, and
         // the next note starts with nothing of it.
         voice.string.counters.nonfinite_resets = resets + 1;
         finish(voice, state);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/assert.h"
 #include "jawari/scene/energy.h"
 #include "string/broad_phase/gap_bounds.h"
 #include "string/broad_phase/gap_certificate.h"
@@ -169,6 +170,12 @@ void reset(const StringModel& model, StringState& state) noexcept {
     state.energy = {};
     state.energy.initial = energy(model, state);
     state.energy.highest = state.energy.initial;
+}
+
+void reset(const SceneModel& model, SceneState& state) noexcept {
+    JAWARI_ASSERT(state.strings.size() == model.strings.size());
+    for (std::size_t s = 0; s < model.strings.size(); ++s) reset(model.strings[s], state.strings[s]);
+    state.frame = 0;
 }
 
 void put_to_rest(const StringModel& model, StringState& state) noexcept {
