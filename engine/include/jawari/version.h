@@ -10,6 +10,7 @@
 /// The version as text, "major.minor.patch".
 #define JAWARI_VERSION "0.1.0"
 
+/// The engine. Everything public is in it; jawari::detail is not for use.
 namespace jawari {
 
 /// Version of the library that is linked, as JAWARI_VERSION spells it. If both differ, the headers do not

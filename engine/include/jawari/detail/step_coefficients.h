@@ -34,9 +34,12 @@ StepCoefficients exact_step(double omega, double sigma, double h);
 
 /// P^m - I for m steps of free motion, and what a force does meanwhile.
 struct FlightFactors {
-    double qq = 0, qv = 0, vq = 0, vv = 0;  ///< P^m - I; qv in s, vq in 1/s
-    double q_held = 0, v_held = 0;          ///< sum over n = 1..m of the response to an impulse h w at step n
-    double q_ramp = 0, v_ramp = 0;          ///< sum over n of (n - 1) times that response
+    double qq = 0;                  ///< of P^m - I: q from q
+    double qv = 0;                  ///< of P^m - I: q from v [s]
+    double vq = 0;                  ///< of P^m - I: v from q [1/s]
+    double vv = 0;                  ///< of P^m - I: v from v
+    double q_held = 0, v_held = 0;  ///< sum over n = 1..m of the response to an impulse h w at step n
+    double q_ramp = 0, v_ramp = 0;  ///< sum over n of (n - 1) times that response
 };
 
 /// m steps of free motion of the exact scheme in closed form: P^m = psi_m P - e psi_{m-1} I with psi_m =

@@ -55,7 +55,7 @@ enum class ExciterPhase { None, Finger, Hammer, Tangent };
 
 /// An exciter at work.
 struct ExciterState {
-    ExciterPhase phase = ExciterPhase::None;
+    ExciterPhase phase = ExciterPhase::None;  ///< what excites the string
     /// phi_k averaged over the exciter's width [m^(-1/2)]; of a tangent integral of (1 - x/L) phi_k
     /// [m^(1/2)].
     AlignedVector<double> row;

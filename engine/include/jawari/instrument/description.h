@@ -37,7 +37,7 @@ struct FretsDescription {
 
 /// One string of an instrument.
 struct InstrumentStringDescription {
-    std::string name;
+    std::string name;                    ///< for messages and files; may be empty
     int open_note = 0;                   ///< MIDI note number of the open string, 0 to 127
     double open_frequency_hz = 0;        ///< of the open string's first partial, 10 to 5000 [Hz]
     double length_m = 0;                 ///< nut to bridge, 0.02 to 5 [m]
@@ -60,9 +60,9 @@ struct InstrumentStringDescription {
 enum class Origin {
     Bridge,  ///< distances from the bridge; heights from the open string's rest line
     Nut,     ///< distances from the nut; heights from the open string's rest line; only what lies in the
-          ///< speaking length counts
-    Stop  ///< distances from the nut or the fret that stops the string; heights from the speaking length's
-          ///< rest line
+             ///< speaking length counts
+    Stop     ///< distances from the nut or the fret that stops the string; heights from the speaking length's
+             ///< rest line
 };
 
 /// height = height_m - drop_m (distance/length_m)^2 for distances up to length_m.
@@ -77,10 +77,10 @@ using CornerProfile = std::vector<std::pair<double, double>>;
 
 /// A rigid body that strings strike: neck, curved bridge, thread, sawari, rattle.
 struct ObstacleDescription {
-    std::string name;
-    Origin origin = Origin::Bridge;  ///< of the profile's distances and heights
-    Side side = Side::Below;         ///< from which it presses on the string
-    std::variant<CornerProfile, ParabolicProfile> profile;
+    std::string name;                                       ///< for messages; may be empty
+    Origin origin = Origin::Bridge;                         ///< of the profile's distances and heights
+    Side side = Side::Below;                                ///< from which it presses on the string
+    std::variant<CornerProfile, ParabolicProfile> profile;  ///< its shape
     /// Contacts spread evenly over the profile; 0: one at each corner (a corner profile only). At most
     /// limits::obstacle_points.
     std::size_t points = 0;
@@ -90,7 +90,7 @@ struct ObstacleDescription {
 
 /// Something soft that always lies on the string: cotton, felt, rubber. Spring and dashpot.
 struct SoftTouchDescription {
-    std::string name;
+    std::string name;                  ///< for messages; may be empty
     StringPlace place;                 ///< of its middle
     double width_m = 0;                ///< over which its force is spread, 0 to 0.2 [m]
     double damping_kg_per_s = 0;       ///< of the dashpot, 0 to 1e4 [kg/s]
@@ -137,7 +137,7 @@ struct ExciterDescription {
     std::string name;    ///< of the articulation
     StringPlace place;   ///< where it acts; tangents ignore it
     double width_m = 0;  ///< over which the force is spread, 0 to 0.1 [m]
-    std::variant<FingerDescription, HammerDescription, TangentDescription> body;
+    std::variant<FingerDescription, HammerDescription, TangentDescription> body;  ///< what acts on the string
     double time_exponent = 0;        ///< times (finger, tangent) shrink as velocity^-time_exponent, 0 to 2
     double lowest_velocity = 0;      ///< of the notes that it plays, 0 to 1
     double highest_velocity = 1;     ///< of the notes that it plays, lowest_velocity to 1
@@ -149,8 +149,8 @@ struct ExciterDescription {
 /// that the touch alone would give in first order; no touch is harder than one that absorbs best.
 struct HandDescription {
     bool damps = true;  ///< false: strings ring on after note-off, as on a dulcimer
-    /// Where the damping hand lies. The defaults leave no partial free: for each k up to 39, |sin(k pi share)| is at
-    /// least 0.35 at one of the two.
+    /// Where the damping hand lies. The defaults leave no partial free: for each k up to 39, |sin(k pi
+    /// share)| is at least 0.35 at one of the two.
     std::array<StringPlace, 2> release_places{{{0, 0.164}, {0, 0.312}}};
     double release_t60_s = 0.1;       ///< T60 after note-off at release velocity 0.5, 0.005 to 60 [s]
     double release_spread = 2;        ///< factor of T60 at release velocity 0, divisor at 1; 1 to 10
@@ -175,10 +175,10 @@ enum class PickupQuantity {
 
 /// A pickup under every string.
 struct PickupDescription {
-    StringPlace place;
-    double width_m = 0;  ///< over which it averages, 0 to 0.1 [m]
-    double level = 1;    ///< output per unit of the quantity, -100 to 100
-    PickupQuantity quantity = PickupQuantity::Velocity;
+    StringPlace place;                                   ///< of its middle
+    double width_m = 0;                                  ///< over which it averages, 0 to 0.1 [m]
+    double level = 1;                                    ///< output per unit of the quantity, -100 to 100
+    PickupQuantity quantity = PickupQuantity::Velocity;  ///< what it senses
     /// Distance to the pole, 0 to 0.1 [m]; 0: linear. Velocities are divided by (1 - u/distance)^3: the field
     /// of a magnetic charge falls with the squared distance (Horton and Moore, Am. J. Phys. 77 (2009) 144).
     double magnet_distance_m = 0;
@@ -209,18 +209,18 @@ struct QualityDescription {
 
 /// A string instrument.
 struct InstrumentDescription {
-    std::string name;
-    double gain = 1;  ///< factor of the sum of pickups and body, 0 to 1e6; an output of 1 is full scale
+    std::string name;  ///< for messages and files; may be empty
+    double gain = 1;   ///< factor of the sum of pickups and body, 0 to 1e6; an output of 1 is full scale
     QualityDescription quality;                ///< for playing
     std::optional<QualityDescription> studio;  ///< for rendering to files; the host chooses
     ImpactLaw law = ImpactLaw::Signorini;      ///< of all contacts
-    PlayMode play = PlayMode::Keyboard;
+    PlayMode play = PlayMode::Keyboard;        ///< how strings are given to notes
     bool contacts = true;    ///< false: frets and obstacles are never struck, all else being equal
     FretsDescription frets;  ///< of strings that have none of their own
-    std::vector<ObstacleDescription> obstacles;      ///< at most limits::obstacles
-    std::vector<SoftTouchDescription> soft_touches;  ///< at most limits::soft_touches on a string
-    std::vector<ExciterDescription> exciters;        ///< 1 to limits::exciters
-    HandDescription hand;
+    std::vector<ObstacleDescription> obstacles;        ///< at most limits::obstacles
+    std::vector<SoftTouchDescription> soft_touches;    ///< at most limits::soft_touches on a string
+    std::vector<ExciterDescription> exciters;          ///< 1 to limits::exciters
+    HandDescription hand;                              ///< damping, palm, legato
     std::vector<PickupDescription> pickups;            ///< at most limits::pickups; none needs a body
     std::vector<BodyModeDescription> body;             ///< at most limits::body_modes
     std::vector<InstrumentStringDescription> strings;  ///< 1 to limits::instrument_strings

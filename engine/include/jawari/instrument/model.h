@@ -66,32 +66,40 @@ struct CourseModel {
 /// Resonances of the body, driven by a force that is linear between frames. Arrays over the body's modes.
 /// (y, v) at the next frame = [[yy, yv], [vy, vv]] (y, v) + held F + ramp (F_next - F).
 struct BodyModel {
-    AlignedVector<double> yy, yv, vy, vv;                  ///< free motion over one output frame
-    AlignedVector<double> y_held, v_held, y_ramp, v_ramp;  ///< response to 1 N held, and to 1 N of growth
-    /// Output per velocity [s/m], as BodyModeDescription states it. The instrument's gain is not in it: the
-    /// force that drives the body carries that, through InstrumentStringModel::level.
-    AlignedVector<double> gain_left, gain_right;
+    AlignedVector<double> yy;      ///< free motion over one output frame: y from y
+    AlignedVector<double> yv;      ///< free motion over one output frame: y from v [s]
+    AlignedVector<double> vy;      ///< free motion over one output frame: v from y [1/s]
+    AlignedVector<double> vv;      ///< free motion over one output frame: v from v
+    AlignedVector<double> y_held;  ///< y after a frame under 1 N
+    AlignedVector<double> v_held;  ///< v after a frame under 1 N
+    AlignedVector<double> y_ramp;  ///< y after a frame in which the force grows from 0 to 1 N
+    AlignedVector<double> v_ramp;  ///< v after a frame in which the force grows from 0 to 1 N
+    /// Output on the left per velocity [s/m], as BodyModeDescription states it. The instrument's gain is not
+    /// in it: the force that drives the body carries that, through InstrumentStringModel::level.
+    AlignedVector<double> gain_left;
+    AlignedVector<double>
+        gain_right;         ///< output on the right per velocity [s/m], without the instrument's gain
     std::size_t count = 0;  ///< number of modes; the arrays are padded
 };
 
 /// A compiled instrument.
 struct InstrumentModel {
-    std::string name;                 ///< of the description
-    double output_rate_hz = 0;        ///< output frames per second [Hz]
-    double contact_rate_hz = 0;       ///< contact steps per second [Hz]
-    std::size_t steps_per_frame = 0;  ///< contact_rate_hz / output_rate_hz
-    PlayMode play = PlayMode::Keyboard;
-    std::vector<ExciterDescription> exciters;
-    HandDescription hand;
-    std::vector<PickupDescription> pickups;
+    std::string name;                          ///< of the description
+    double output_rate_hz = 0;                 ///< output frames per second [Hz]
+    double contact_rate_hz = 0;                ///< contact steps per second [Hz]
+    std::size_t steps_per_frame = 0;           ///< contact_rate_hz / output_rate_hz
+    PlayMode play = PlayMode::Keyboard;        ///< how strings are given to notes
+    std::vector<ExciterDescription> exciters;  ///< of the description
+    HandDescription hand;                      ///< of the description
+    std::vector<PickupDescription> pickups;    ///< of the description
     std::vector<double>
         fade_shape;  ///< output gain of a voice that is taken away: from 1 to 0, one per frame
     std::vector<InstrumentStringModel> strings;  ///< at full quality
     /// The strings at lower quality levels, each lower than the one before (qualities.h): level n of a string
     /// is lower[n - 1], level 0 is `strings`.
     std::vector<std::vector<InstrumentStringModel>> lower;
-    std::vector<CourseModel> courses;
-    BodyModel body;
+    std::vector<CourseModel> courses;  ///< strings that sound together, each string in one course
+    BodyModel body;                    ///< resonances of the body
 };
 
 /// A voice whose energy is below this share of the string's energy at full velocity is at rest (-150 dB).

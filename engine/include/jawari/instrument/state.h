@@ -24,18 +24,19 @@ enum class VoicePhase {
     Damped     ///< an earlier note, under the damping hand if there is one
 };
 
-/// A motion's own copy of its string, at another tension.
+/// A voice's own copy of its string, at another tension.
 struct BendState {
-    bool active = false;   ///< `model` is in force
-    double semitones = 0;  ///< bend in force
-    double target = 0;     ///< where it goes [semitones]
-    StringModel model;
-    AlignedVector<double> backward_q, backward_u;  ///< as StoppedStringModel's, of `model`
+    bool active = false;               ///< `model` is in force
+    double semitones = 0;              ///< bend in force
+    double target = 0;                 ///< where it goes [semitones]
+    StringModel model;                 ///< the string at that tension
+    AlignedVector<double> backward_q;  ///< StoppedStringModel::backward_q, of `model`
+    AlignedVector<double> backward_u;  ///< StoppedStringModel::backward_u, of `model`
 };
 
 /// A slide: the pitch glides to another fret's, which then takes over.
 struct SlideState {
-    bool active = false;
+    bool active = false;       ///< a slide is under way
     std::size_t fret = 0;      ///< where it goes
     double begun = 0;          ///< bend at which it began [semitones]; 0 unless another slide was under way
     double semitones = 0;      ///< from the voice's fret to `fret`
@@ -54,25 +55,25 @@ struct VoiceGains {
 
 /// One voice of one string: a motion from its excitation until it is at rest.
 struct Voice {
-    VoicePhase phase = VoicePhase::Idle;
-    std::size_t fret = 0;
-    int channel = 0;                  ///< 0 to 15
-    StringState string;               ///< sized for the largest of the string's stops and quality levels
-    TouchState touches;               ///< hands and exciter
-    BendState bend;                   ///< retuned string
-    SlideState slide;                 ///< in legato
-    std::uint64_t age = 0;            ///< output frames since it began
-    bool fading = false;              ///< being taken away, see render_instrument()
-    bool rests_on_obstacles = false;  ///< its stop holds energy at rest
-    std::size_t fade_frame = 0;       ///< index into InstrumentModel::fade_shape while fading
-    std::size_t rise_frame = 0;       ///< of fading in after legato; at the shape's end: fully in
-    VoiceGains gains;                 ///< in force; they follow `targets` smoothly
-    VoiceGains targets;
+    VoicePhase phase = VoicePhase::Idle;  ///< what it is doing
+    std::size_t fret = 0;                 ///< at which its string is stopped, 0 is open
+    int channel = 0;                      ///< 0 to 15
+    StringState string;                   ///< sized for the largest of the string's stops and quality levels
+    TouchState touches;                   ///< hands and exciter
+    BendState bend;                       ///< retuned string
+    SlideState slide;                     ///< in legato
+    std::uint64_t age = 0;                ///< output frames since it began
+    bool fading = false;                  ///< being taken away, see render_instrument()
+    bool rests_on_obstacles = false;      ///< its stop holds energy at rest
+    std::size_t fade_frame = 0;           ///< index into InstrumentModel::fade_shape while fading
+    std::size_t rise_frame = 0;           ///< of fading in after legato; at the shape's end: fully in
+    VoiceGains gains;                     ///< in force; they follow `targets` smoothly
+    VoiceGains targets;                   ///< set every 32 output frames from the channel's controls
 };
 
 /// The note that occupies a course, from note-on until it is released by note-off or by the pedal.
 struct HeldNote {
-    bool active = false;
+    bool active = false;                                     ///< a note is held
     bool key_down = false;                                   ///< false while only the sustain pedal holds it
     int channel = 0;                                         ///< 0 to 15
     int key = 0;                                             ///< MIDI note number
@@ -87,15 +88,15 @@ inline constexpr std::size_t legato_depth = 8;
 
 /// Strings that sound together.
 struct CourseState {
-    HeldNote held;
+    HeldNote held;  ///< the note that occupies the course
     /// Legato: keys below the held one that are still down, the latest last; below_count are valid.
     std::array<int, legato_depth> below{};
-    std::size_t below_count = 0;
+    std::size_t below_count = 0;  ///< valid keys in `below`
 };
 
 /// How a note is to be excited.
 struct Stroke {
-    std::size_t fret = 0;
+    std::size_t fret = 0;     ///< 0 is the open string
     double velocity = 0;      ///< above 0, to 1
     std::size_t exciter = 0;  ///< index into InstrumentModel::exciters
     int channel = 0;          ///< 0 to 15
@@ -104,9 +105,9 @@ struct Stroke {
 
 /// A stroke that waits: for an idle voice, or for its turn within a course.
 struct PendingStroke {
-    bool active = false;
+    bool active = false;      ///< a stroke waits
     std::uint64_t delay = 0;  ///< output frames until it may begin
-    Stroke stroke;
+    Stroke stroke;            ///< the stroke that waits
 };
 
 /// Voices of a string that can be stopped: one sounds, one fades, one is kept free for the next note. A
@@ -119,11 +120,11 @@ inline constexpr int midi_channels = 16;
 
 /// One string of the instrument.
 struct InstrumentStringState {
-    std::vector<Voice> voices;
+    std::vector<Voice> voices;        ///< voices_per_string, or one
     std::size_t sounding = no_voice;  ///< index of the voice that has the note, or no_voice
     std::size_t busy = 0;             ///< voices that are not idle
-    PendingStroke pending;
-    std::size_t quality_level = 0;  ///< quality level, 0 is full; set by change_quality()
+    PendingStroke pending;            ///< the stroke that waits, if any
+    std::size_t quality_level = 0;    ///< quality level, 0 is full; set by change_quality()
 };
 
 /// Controllers and parameters of one channel.
@@ -160,19 +161,19 @@ InstrumentCounters& operator+=(InstrumentCounters& sum, const InstrumentCounters
 
 /// An instrument while it plays. One thread at a time may use it.
 struct InstrumentState {
-    PlayMode play = PlayMode::Keyboard;          ///< the preset's; may be changed before the first note
-    std::vector<InstrumentStringState> strings;  ///< as InstrumentModel::strings
-    std::vector<CourseState> courses;            ///< as InstrumentModel::courses
-    std::array<ChannelState, midi_channels> channels;
-    BodyState body;
-    std::uint64_t note_order = 0;     ///< HeldNote::order of the next note-on
-    std::uint64_t frame = 0;          ///< output frames rendered
-    bool waiting = false;             ///< a stroke may be waiting
-    bool busy = false;                ///< a string may have a voice that is not idle
+    PlayMode play = PlayMode::Keyboard;                ///< the preset's; may be changed before the first note
+    std::vector<InstrumentStringState> strings;        ///< as InstrumentModel::strings
+    std::vector<CourseState> courses;                  ///< as InstrumentModel::courses
+    std::array<ChannelState, midi_channels> channels;  ///< controllers and parameters of each channel
+    BodyState body;                                    ///< resonances of the body
+    std::uint64_t note_order = 0;                      ///< HeldNote::order of the next note-on
+    std::uint64_t frame = 0;                           ///< output frames rendered
+    bool waiting = false;                              ///< a stroke may be waiting
+    bool busy = false;                                 ///< a string may have a voice that is not idle
     std::uint64_t strokes_until = 0;  ///< waiting strokes have been looked at before this output frame
-    InstrumentCounters counters;
-    PlayerWork work;
-    Counters finished;  ///< contact counters of voices that are idle again
+    InstrumentCounters counters;      ///< notes and voices
+    PlayerWork work;                  ///< energies that players have given to the strings
+    Counters finished;                ///< contact counters of voices that are idle again
 };
 
 /// A state of the model: all strings at rest, controllers neutral. Allocates all that rendering needs.

@@ -49,8 +49,8 @@ struct PhysicalModes {
     std::size_t count = 0;     ///< number of modes N, 1 to limits::modes
     double tension_N = 0;      ///< tension T, > 0 [N]
     double inharmonicity = 0;  ///< inharmonicity B, >= 0 [1]
-    InharmonicityLaw inharmonicity_law = InharmonicityLaw::SquareRoot;
-    std::variant<NoLoss, ValetteLoss, DecayTimePoints> damping;
+    InharmonicityLaw inharmonicity_law = InharmonicityLaw::SquareRoot;  ///< of the partials
+    std::variant<NoLoss, ValetteLoss, DecayTimePoints> damping;         ///< losses
 };
 
 /// Modes from two tables of equal length N, 1 to limits::modes.
@@ -69,10 +69,10 @@ enum class Side {
 
 /// A rigid point obstacle.
 struct ContactDescription {
-    double position_m = 0;   ///< x_c, from the string's start, 0 to L [m]
-    double height_m = 0;     ///< h_c, from the rest line, negative below it [m]
-    double restitution = 0;  ///< e_c, 0 (no rebound) to 1; ImpactLaw says which laws use it
-    Side side = Side::Below;
+    double position_m = 0;    ///< x_c, from the string's start, 0 to L [m]
+    double height_m = 0;      ///< h_c, from the rest line, negative below it [m]
+    double restitution = 0;   ///< e_c, 0 (no rebound) to 1; ImpactLaw says which laws use it
+    Side side = Side::Below;  ///< from which it presses on the string
 };
 
 // ------------------------------------------------------------ initial state
@@ -116,22 +116,22 @@ enum class Quantity {
 
 /// One output of a string.
 struct ProbeDescription {
-    Quantity quantity = Quantity::Displacement;
-    double position_m = 0;    ///< for Displacement and Velocity: 0 to L [m]
-    std::size_t contact = 0;  ///< for ContactForce: index into StringDescription::contacts
+    Quantity quantity = Quantity::Displacement;  ///< what it reads
+    double position_m = 0;                       ///< for Displacement and Velocity: 0 to L [m]
+    std::size_t contact = 0;                     ///< for ContactForce: index into StringDescription::contacts
 };
 
 // ------------------------------------------------------------ string and scene
 
 /// One string with its obstacles and probes.
 struct StringDescription {
-    std::string name;                    ///< for output files; may be empty
-    double length_m = 0;                 ///< L, > 0 [m]
-    double linear_density_kg_per_m = 0;  ///< mu, > 0 [kg/m]
-    std::variant<PhysicalModes, ModeTable> modes;
-    InitialCondition initial;
-    std::vector<ContactDescription> contacts;  ///< at most limits::contacts
-    std::vector<ProbeDescription> probes;      ///< at most limits::probes
+    std::string name;                              ///< for output files; may be empty
+    double length_m = 0;                           ///< L, > 0 [m]
+    double linear_density_kg_per_m = 0;            ///< mu, > 0 [kg/m]
+    std::variant<PhysicalModes, ModeTable> modes;  ///< frequencies and losses
+    InitialCondition initial;                      ///< state at t = 0
+    std::vector<ContactDescription> contacts;      ///< at most limits::contacts
+    std::vector<ProbeDescription> probes;          ///< at most limits::probes
 };
 
 /// Time integration of the modes.
@@ -156,10 +156,10 @@ const char* name_of(ImpactLaw law);
 struct SceneDescription {
     double output_rate_hz = 48000;  ///< output frames per second, limits::min_rate_hz to max_rate_hz [Hz]
     double contact_rate_hz =
-        2016000;  ///< contact steps per second, an integer multiple of output_rate_hz [Hz]
-    Scheme scheme = Scheme::Exact;
-    double theta = 0.5;  ///< 1/2 to 1; used by Scheme::Theta only
-    ImpactLaw law = ImpactLaw::Signorini;
+        2016000;                    ///< contact steps per second, an integer multiple of output_rate_hz [Hz]
+    Scheme scheme = Scheme::Exact;  ///< time integration; Theta allows ImpactLaw::Newton only
+    double theta = 0.5;             ///< 1/2 to 1; used by Scheme::Theta only
+    ImpactLaw law = ImpactLaw::Signorini;    ///< of all contacts
     std::vector<StringDescription> strings;  ///< 1 to limits::strings
 };
 
