@@ -161,7 +161,7 @@ InstrumentCounters& operator+=(InstrumentCounters& sum, const InstrumentCounters
 
 /// An instrument while it plays. One thread at a time may use it.
 struct InstrumentState {
-    PlayMode play = PlayMode::Keyboard;                ///< the preset's; may be changed before the first note
+    PlayMode play = PlayMode::Keyboard;                ///< set by set_play_mode()
     std::vector<InstrumentStringState> strings;        ///< as InstrumentModel::strings
     std::vector<CourseState> courses;                  ///< as InstrumentModel::courses
     std::array<ChannelState, midi_channels> channels;  ///< controllers and parameters of each channel
@@ -189,6 +189,10 @@ void reset(const InstrumentModel& model, InstrumentState& state) JAWARI_REALTIME
 /// Gives `to` the controllers and parameters of all channels of `from`, as when one instrument takes the
 /// place of another. Held notes stay. Threads: one at a time per state; realtime-safe.
 void inherit_controls(const InstrumentState& from, InstrumentState& to) JAWARI_REALTIME;
+
+/// Sets how strings are given to notes, which make_instrument_state() and reset() take from the model. Call
+/// it before the first note. Threads: one at a time per state; realtime-safe.
+void set_play_mode(InstrumentState& state, PlayMode mode) JAWARI_REALTIME;
 
 /// Sets the number of output frames rendered. Vibrato and the moments at which controllers are followed count
 /// from frame 0. Call it between blocks. Threads: one at a time per state; realtime-safe.

@@ -81,6 +81,11 @@ void inherit_controls(const InstrumentState& from, InstrumentState& to) JAWARI_R
     to.channels = from.channels;
 }
 
+void set_play_mode(InstrumentState& state, PlayMode mode) JAWARI_REALTIME {
+    JAWARI_ASSERT(held_notes(state) == 0);
+    state.play = mode;
+}
+
 void set_clock(InstrumentState& state, std::uint64_t frame) JAWARI_REALTIME {
     state.frame = frame;
     state.strokes_until = frame;

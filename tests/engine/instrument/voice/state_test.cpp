@@ -42,7 +42,7 @@ class ResetOf : public testing::TestWithParam<unsigned> {};
 TEST_P(ResetOf, AnInstrumentPlaysTheBitsOfANewState) {
     const InstrumentModel& model = small_model();
     InstrumentState state = make_instrument_state(model);
-    if (GetParam() % 2 == 1) state.play = PlayMode::Guitar;
+    if (GetParam() % 2 == 1) set_play_mode(state, PlayMode::Guitar);
     for (std::size_t s = 0; s < model.strings.size(); ++s)
         change_quality(model, state, s, (s + GetParam()) % 2);
     play(model, state, test::storm(GetParam(), 7000, 200), 7013);
@@ -148,6 +148,20 @@ TEST(InstrumentState, TellsWhatIsHeldAndWhatSounds) {
     EXPECT_EQ(nonfinite_resets(state, 0), 0U);  // the voice ended
     EXPECT_EQ(sounding_voices(state), 1U);
 }
+
+#ifndef NDEBUG
+TEST(InstrumentStateDeathTest, PreconditionsAreAssertedInDebugBuilds) {
+    const InstrumentModel& model = small_model();
+    InstrumentState state = make_instrument_state(model);
+    EXPECT_DEATH(sounding_voices(state, 3), "strings.size");
+    EXPECT_DEATH(string_energy(model, state, 3), "strings.size");
+    play(model, state, {note_on(0, 45, 0.5)}, 8);
+    EXPECT_DEATH(set_play_mode(state, PlayMode::Guitar), "held_notes");
+    const std::vector<InstrumentEvent> unordered{note_on(5, 45, 0.5), note_off(4, 45)};
+    std::vector<double> output(8);
+    EXPECT_DEATH(render_instrument(model, state, unordered, output.data(), output.size()), "is_sorted");
+}
+#endif
 
 }  // namespace
 }  // namespace jawari
