@@ -81,12 +81,31 @@ double force_at(const StoppedStringModel& stopped, double full_force_N, double d
     return full_force_N * described_x * (L - described_x) / (x * (L - x));
 }
 
-void strike_with(const FingerDescription& finger, const InstrumentModel& model,
-                 const InstrumentStringModel& string, Voice& voice, const Stroke& stroke, double x,
-                 double described_x) {
+/// A tangent's movement takes at least this many output frames: its force, which follows the movement's
+/// acceleration, is held over each of them.
+constexpr std::uint64_t shortest_tangent_frames = 4;
+
+/// A stroke on one voice.
+struct Strike {
+    const InstrumentModel& model;
+    const InstrumentStringModel& string;
+    Voice& voice;
+    const Stroke& stroke;
+    double x_m = 0;            ///< where, from the start of the speaking length; 0 for tangents
+    double described_x_m = 0;  ///< where the description has it
+};
+
+/// Factor of an exciter's times.
+double time_factor(const Strike& strike) {
+    const double exponent = strike.model.exciters[strike.stroke.exciter].time_exponent;
+    return std::pow(strike.stroke.velocity, -exponent) / strike.stroke.hardness;
+}
+
+void strike_with(const FingerDescription& finger, const Strike& strike) {
+    const auto& [model, string, voice, stroke, x, described_x] = strike;
     const ExciterDescription& exciter = model.exciters[stroke.exciter];
     const StoppedStringModel& stopped = string.stopped[voice.fret];
-    const double times = std::pow(stroke.velocity, -exciter.time_exponent) / stroke.hardness;
+    const double times = time_factor(strike);
     const double force = force_at(stopped, stopped.full_force_N[stroke.exciter], described_x, x) *
                          std::pow(stroke.velocity, finger.height_exponent);
     const std::uint64_t rise = frames_of(finger.rise_s * times, model.output_rate_hz);
@@ -103,22 +122,22 @@ void strike_with(const FingerDescription& finger, const InstrumentModel& model,
                .ease_frames = static_cast<double>(rise) / 2});
 }
 
-void strike_with(const HammerDescription& hammer, const InstrumentModel& model,
-                 const InstrumentStringModel& string, Voice& voice, const Stroke& stroke, double x, double) {
-    const double speed =
-        string.excitation * hammer.full_speed_m_per_s * std::pow(stroke.velocity, hammer.speed_exponent);
-    begin_hammer(voice_model(string, voice), voice.string, voice.touches.exciter, x,
-                 model.exciters[stroke.exciter].width_m, hammer, speed, stroke.hardness);
+void strike_with(const HammerDescription& hammer, const Strike& strike) {
+    const Stroke& stroke = strike.stroke;
+    Voice& voice = strike.voice;
+    const double speed = strike.string.excitation * hammer.full_speed_m_per_s *
+                         std::pow(stroke.velocity, hammer.speed_exponent);
+    begin_hammer(voice_model(strike.string, voice), voice.string, voice.touches.exciter, strike.x_m,
+                 strike.model.exciters[stroke.exciter].width_m, hammer, speed, stroke.hardness);
 }
 
-void strike_with(const TangentDescription& tangent, const InstrumentModel& model,
-                 const InstrumentStringModel& string, Voice& voice, const Stroke& stroke, double, double) {
-    const double times =
-        std::pow(stroke.velocity, -model.exciters[stroke.exciter].time_exponent) / stroke.hardness;
-    const double height =
-        string.excitation * tangent.full_height_m * std::pow(stroke.velocity, tangent.height_exponent);
-    begin_tangent(voice_model(string, voice), voice.touches.exciter, height,
-                  std::max<std::uint64_t>(4, frames_of(tangent.rise_s * times, model.output_rate_hz)));
+void strike_with(const TangentDescription& tangent, const Strike& strike) {
+    Voice& voice = strike.voice;
+    const double height = strike.string.excitation * tangent.full_height_m *
+                          std::pow(strike.stroke.velocity, tangent.height_exponent);
+    const std::uint64_t rise = frames_of(tangent.rise_s * time_factor(strike), strike.model.output_rate_hz);
+    begin_tangent(voice_model(strike.string, voice), voice.touches.exciter, height,
+                  std::max(shortest_tangent_frames, rise));
 }
 
 }  // namespace
@@ -175,14 +194,12 @@ void strike_voice(const InstrumentModel& model, const InstrumentStringModel& str
     const bool placed = place.share > 0 || place.from_bridge_m > 0;
     const double x = placed ? place_on(stopped, place, position_factor) : 0.0;
     const double described_x = placed ? place_on(stopped, place, 1) : 0.0;
+    const Strike strike{model, string, voice, stroke, x, described_x};
     // Not std::visit: it may throw.
     const auto& body = model.exciters[stroke.exciter].body;
-    if (const auto* finger = std::get_if<FingerDescription>(&body))
-        strike_with(*finger, model, string, voice, stroke, x, described_x);
-    if (const auto* hammer = std::get_if<HammerDescription>(&body))
-        strike_with(*hammer, model, string, voice, stroke, x, described_x);
-    if (const auto* tangent = std::get_if<TangentDescription>(&body))
-        strike_with(*tangent, model, string, voice, stroke, x, described_x);
+    if (const auto* finger = std::get_if<FingerDescription>(&body)) strike_with(*finger, strike);
+    if (const auto* hammer = std::get_if<HammerDescription>(&body)) strike_with(*hammer, strike);
+    if (const auto* tangent = std::get_if<TangentDescription>(&body)) strike_with(*tangent, strike);
     voice.touches.outdated = true;
 }
 
