@@ -18,15 +18,16 @@ import eastern  # noqa: E402
 import guitars  # noqa: E402
 import keyboards  # noqa: E402
 import layout  # noqa: E402
+from levels import AIM_DB  # noqa: E402
 
 SCHEMA = "jawari.preset/2"
 INSTRUMENTS = {**basses.INSTRUMENTS, **guitars.INSTRUMENTS, **eastern.INSTRUMENTS, **keyboards.INSTRUMENTS}
-# Chosen so that a chord at velocity 127 peaks near -6 dBFS: tests/presets/check_levels.py.
+# Chosen so that a chord at velocity 127 peaks near AIM_DB: tests/presets/check_levels.py --suggest.
 GAIN = {
     "bass-fretted": 0.12, "bass-fretless": 0.094, "bass-slap": 0.053, "guitar-steel": 16, "guitar-nylon": 28, "guitar-electric": 0.044,
     "guitar-12": 22, "sitar": 23, "tanpura": 130, "biwa": 65, "harpsichord": 100, "clavichord": 120, "dulcimer": 3.1, "prepared": 2.3,
 }
-GAIN_SOURCE = "chosen: a chord at velocity 127 peaks near -5 dBFS (tests/presets/check_levels.py)"
+GAIN_SOURCE = f"chosen: a chord at velocity 127 peaks near {AIM_DB:g} dBFS (tests/presets/check_levels.py)"
 QUALITY_SOURCE = "chosen: a compromise of cost and of what ultrasonic modes add (scripts/preset_convergence.py)"
 ORDER = ["comment", "provenance", "gain", "contact_rate_min_hz", "mode_limit_hz", "studio", "law", "play", "frets", "obstacles", "soft_touches", "exciters", "hand",
          "pickups", "body", "strings"]

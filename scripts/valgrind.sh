@@ -8,7 +8,7 @@
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
-filter='Realtime.*:*NonFinite*:Storm.*:Touches.*:Hammer.*:Bend.*:Transfer.*:InstrumentRungs.*:Render.*:Frame.*:ShortFrame.*'
+filter='Realtime.*:*NonFinite*:Storm.*:Touches.*:Hammer.*:Bend.*:Transfer.*:InstrumentQualities.*:Render.*:Frame.*:ShortFrame.*'
 case "${1:-}" in
     "") ;;
     --all) filter='*' ;;

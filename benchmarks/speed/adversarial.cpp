@@ -45,7 +45,7 @@ BlockTimes measure_blocks(const SceneModel& model, double sound_s) {
             times.all.push_back(time);
         }
         times.counters = {};
-        for (const StringState& string : state.strings) accumulate(string.counters, times.counters);
+        for (const StringState& string : state.strings) times.counters += string.counters;
     }
     return times;
 }

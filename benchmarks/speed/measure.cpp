@@ -21,7 +21,7 @@ void render_frames(const SceneModel& model, SceneState& state, std::vector<doubl
 
 Counters counters_of(const SceneState& state) {
     Counters sum;
-    for (const StringState& string : state.strings) accumulate(string.counters, sum);
+    for (const StringState& string : state.strings) sum += string.counters;
     return sum;
 }
 

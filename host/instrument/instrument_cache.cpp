@@ -5,6 +5,7 @@
 
 #include "base/cpu_clock.h"
 #include "instrument/preset_library.h"
+#include "jawari/instrument/compile.h"
 #include "jawari/instrument/qualities.h"
 
 namespace jawari::host {
@@ -15,9 +16,9 @@ Outcome<SharedInstrument> load_and_compile(const std::string& name, const Instru
     const double started = thread_cpu_s();
     auto model = compile_instrument(preset.value().instrument, settings.output_rate_hz);
     if (!model) return invalid_input(preset.value().file, model.failure());
-    if (settings.rungs) {
-        const auto lower = live_rungs(preset.value().instrument.quality, settings.output_rate_hz);
-        if (auto failure = add_rungs(model.value(), preset.value().instrument, lower))
+    if (settings.lower_qualities) {
+        const auto lower = live_qualities(preset.value().instrument.quality, settings.output_rate_hz);
+        if (auto failure = add_qualities(model.value(), preset.value().instrument, lower))
             return invalid_input(preset.value().file, *failure);
     }
     auto loaded = std::make_shared<LoadedInstrument>();
@@ -27,15 +28,15 @@ Outcome<SharedInstrument> load_and_compile(const std::string& name, const Instru
     return SharedInstrument(std::move(loaded));
 }
 
-std::vector<QualityDescription> live_rungs(const QualityDescription& full, double output_rate_hz) {
-    std::vector<QualityDescription> rungs;
+std::vector<QualityDescription> live_qualities(const QualityDescription& full, double output_rate_hz) {
+    std::vector<QualityDescription> qualities;
     for (const auto& [share, limit_hz] : {std::pair{0.5, 10000.0}, std::pair{0.2, 5000.0}}) {
-        QualityDescription rung;
-        rung.contact_rate_min_hz = std::max(share * full.contact_rate_min_hz, 2 * output_rate_hz);
-        rung.mode_limit_hz = std::min(full.mode_limit_hz, limit_hz);
-        rungs.push_back(rung);
+        QualityDescription quality;
+        quality.contact_rate_min_hz = std::max(share * full.contact_rate_min_hz, 2 * output_rate_hz);
+        quality.mode_limit_hz = std::min(full.mode_limit_hz, limit_hz);
+        qualities.push_back(quality);
     }
-    return rungs;
+    return qualities;
 }
 
 Outcome<Preset> load_with(const std::string& preset, const InstrumentSettings& settings) {

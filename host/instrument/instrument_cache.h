@@ -24,7 +24,7 @@ struct InstrumentSettings {
     Quality quality = Quality::Live;
     std::optional<KeyFrequencies> tuning;
     bool move_frets = false;
-    bool rungs = false;  ///< compiled at lower qualities too (live_rungs()), for playing live
+    bool lower_qualities = false;  ///< compiled at lower qualities too (live_qualities()), for playing live
 };
 
 struct LoadedInstrument {
@@ -59,6 +59,6 @@ Outcome<Preset> load_with(const std::string& preset, const InstrumentSettings& s
 
 /// What live playing falls back to under overload: half, then a fifth of the contact rate, and modes up to 10
 /// kHz, then 5 kHz; where that is less than the instrument has.
-std::vector<QualityDescription> live_rungs(const QualityDescription& full, double output_rate_hz);
+std::vector<QualityDescription> live_qualities(const QualityDescription& full, double output_rate_hz);
 
 }  // namespace jawari::host

@@ -30,7 +30,7 @@ double take_velocity(MidiChannel& channel, int value) {
 void note_off(MidiInterpreter& interpreter, int channel, int key, double release, MidiActions& actions) {
     MidiChannel& state = channel_state(interpreter, channel);
     if (state.mono_key == key) state.mono_key = -1;
-    add_event(actions, {.type = Type::NoteOff, .channel = channel, .key = key, .value = release});
+    add_event(actions, jawari::note_off(0, key, release, channel));
 }
 
 void note_on(MidiInterpreter& interpreter, int channel, int key, int velocity, MidiActions& actions) {
@@ -49,7 +49,7 @@ void note_on(MidiInterpreter& interpreter, int channel, int key, int velocity, M
     state.mono_key = key;
     // After the new note, so that the instrument sees them overlap: legato is its affair.
     if (state.mono && before >= 0 && before != key)
-        add_event(actions, {.type = Type::NoteOff, .channel = channel, .key = before, .value = 0.5});
+        add_event(actions, jawari::note_off(0, before, neutral_release_velocity, channel));
 }
 
 /// A zone's pressure is felt by all its notes: the stronger of the two counts (M1-100-UM leaves the
@@ -60,7 +60,7 @@ void add_pressure(const MidiInterpreter& interpreter, int channel, MidiActions& 
         const int manager = manager_of(interpreter.zones, channel);
         pressure = std::max(pressure, interpreter.channels[static_cast<std::size_t>(manager)].pressure);
     }
-    add_event(actions, {.type = Type::Pressure, .channel = channel, .key = -1, .value = pressure});
+    add_event(actions, press_channel(0, pressure, channel));
 }
 
 void channel_pressure(MidiInterpreter& interpreter, int channel, int value, MidiActions& actions) {
@@ -72,7 +72,7 @@ void channel_pressure(MidiInterpreter& interpreter, int channel, int value, Midi
 
 void poly_pressure(MidiInterpreter& interpreter, int channel, int key, int value, MidiActions& actions) {
     if (is_member(interpreter.zones, channel)) return;  // forbidden there: M1-100-UM
-    add_event(actions, {.type = Type::Pressure, .channel = channel, .key = key, .value = value / 127.0});
+    add_event(actions, press_note(0, key, value / 127.0, channel));
 }
 
 void pitch_bend(MidiInterpreter& interpreter, int channel, int bend, MidiActions& actions) {

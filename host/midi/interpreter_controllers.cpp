@@ -26,8 +26,7 @@ double reached_timbre(const MidiInterpreter& interpreter, int channel) {
 }
 
 void add_timbre(const MidiInterpreter& interpreter, int channel, MidiActions& actions) {
-    add_event(actions,
-              {.type = Type::Timbre, .channel = channel, .value = reached_timbre(interpreter, channel)});
+    add_event(actions, set_timbre(0, reached_timbre(interpreter, channel), channel));
 }
 
 void add_for_zone(const MidiInterpreter& interpreter, int channel, Type type, double value,
@@ -67,7 +66,7 @@ void reset_controllers(MidiInterpreter& interpreter, int channel, MidiActions& a
     state.target = DataTarget::None;
     state.number_msb = state.number_lsb = 127;
     state.has_velocity_lsb = false;
-    add_event(actions, {.type = Type::ResetControllers, .channel = channel});
+    add_event(actions, jawari::reset_controllers(0, channel));
     if (reached_timbre(interpreter, channel) != 0.5) add_timbre(interpreter, channel, actions);
     if (is_member(interpreter.zones, channel)) return;
     bound_controller(interpreter, channel, 1, 0, actions);
@@ -100,7 +99,7 @@ void add_bend(const MidiInterpreter& interpreter, int channel, MidiActions& acti
         bend += own_bend(interpreter.channels[static_cast<std::size_t>(manager)]);
     }
     bend = std::clamp(bend, -largest_bend_semitones, largest_bend_semitones);
-    add_event(actions, {.type = Type::Bend, .channel = channel, .key = -1, .value = bend});
+    add_event(actions, bend_channel(0, bend, channel));
 }
 
 bool apply_bindings(MidiInterpreter& interpreter, MidiSource source, int number, int channel, double travel,

@@ -9,8 +9,6 @@ namespace jawari::host {
 
 namespace {
 
-using Type = InstrumentEventType;
-
 constexpr int bend_sensitivity = 0;
 constexpr int fine_tuning = 1;
 constexpr int mpe_configuration = 6;
@@ -39,8 +37,8 @@ void configure_zone(MidiInterpreter& interpreter, int manager, int members, Midi
         const int new_manager = manager_of(interpreter.zones, channel);
         const bool touched = old_manager != new_manager || new_manager == manager || channel == manager;
         if (!touched) continue;
-        add_event(actions, {.type = Type::AllNotesOff, .channel = channel});
-        add_event(actions, {.type = Type::ResetControllers, .channel = channel});
+        add_event(actions, jawari::all_notes_off(0, channel));
+        add_event(actions, jawari::reset_controllers(0, channel));
         MidiChannel fresh = fresh_channel(interpreter, channel);
         fresh.bank_msb = channel_state(interpreter, channel).bank_msb;
         fresh.bank_lsb = channel_state(interpreter, channel).bank_lsb;

@@ -44,7 +44,6 @@ struct LiveLinks {
     LiveMeters meters;
 };
 
-void add_counters(const InstrumentCounters& more, InstrumentCounters& sum) JAWARI_REALTIME;
 std::uint32_t pack(const ProgramRequest& request) JAWARI_REALTIME;
 
 class Performer {
@@ -65,7 +64,7 @@ class Performer {
     /// Messages taken in a block; more wait for the next.
     static constexpr std::size_t most_messages = 1024;
 
-    // performer_stage.cpp
+    // audio_thread_stage.cpp
     void obey_commands() JAWARI_REALTIME;
     bool obey(const LiveCommand& command) JAWARI_REALTIME;
     bool panic() JAWARI_REALTIME;
@@ -77,7 +76,7 @@ class Performer {
     void start_capture(CaptureRing* ring) JAWARI_REALTIME;
     void stop_capture() JAWARI_REALTIME;
 
-    // performer.cpp
+    // audio_thread.cpp
     void take_messages(std::size_t frames) JAWARI_REALTIME;
     void apply(const ChannelMessage& message, std::size_t offset) JAWARI_REALTIME;
     void add_event(InstrumentEvent event, std::size_t offset) JAWARI_REALTIME;
@@ -88,10 +87,10 @@ class Performer {
     void capture(const double* left, const double* right, std::size_t frames) JAWARI_REALTIME;
     void end_capture() JAWARI_REALTIME;
 
-    // performer_quality.cpp
+    // audio_thread_quality.cpp
     void adapt_quality() JAWARI_REALTIME;
 
-    // performer_meters.cpp
+    // audio_thread_meters.cpp
     void measure_level(const double* left, const double* right, std::size_t frames) JAWARI_REALTIME;
     void measure_instruments() JAWARI_REALTIME;
     void survey_strings() JAWARI_REALTIME;

@@ -24,15 +24,6 @@ double largest(const double* x, std::size_t count) {
 
 }  // namespace
 
-void add_counters(const InstrumentCounters& more, InstrumentCounters& sum) JAWARI_REALTIME {
-    sum.notes += more.notes;
-    sum.ignored_notes += more.ignored_notes;
-    sum.stolen_notes += more.stolen_notes;
-    sum.delayed_notes += more.delayed_notes;
-    sum.faded_voices += more.faded_voices;
-    sum.legato_notes += more.legato_notes;
-}
-
 void Performer::measure_level(const double* left, const double* right, std::size_t frames) JAWARI_REALTIME {
     raise(links_.meters.peak_left, largest(left, frames));
     raise(links_.meters.peak_right, largest(right, frames));
@@ -46,10 +37,10 @@ void Performer::measure_instruments() JAWARI_REALTIME {
     std::size_t voices = 0;
     for (std::size_t i = 0; i < sounding_; ++i) {
         LiveInstrument& instrument = *stage_[i];
-        add_counters(instrument.state.counters, counters);
+        counters += instrument.state.counters;
         nonfinite += instrument.nonfinite_resets;
-        for (const CourseState& course : instrument.state.courses) held += course.held.active ? 1 : 0;
-        for (const InstrumentStringState& string : instrument.state.strings) voices += string.busy;
+        held += held_notes(instrument.state);
+        voices += sounding_voices(instrument.state);
     }
     if (nonfinite != nonfinite_resets_)
         notify(LiveNotice::Kind::NonfiniteReset, static_cast<double>(nonfinite));
@@ -65,7 +56,7 @@ void Performer::measure_instruments() JAWARI_REALTIME {
     meters.nonfinite_resets.store(nonfinite, relaxed);
 }
 
-/// One string of each instrument a block: dear things a little at a time.
+/// Surveys one string of each instrument per block: measuring all at once would cost too much.
 void Performer::survey_strings() JAWARI_REALTIME {
     if (sounding_ == 0) return;
     for (std::size_t i = 0; i < sounding_; ++i) survey_string(*stage_[i]);
@@ -74,21 +65,16 @@ void Performer::survey_strings() JAWARI_REALTIME {
 
 void Performer::survey_string(LiveInstrument& instrument) JAWARI_REALTIME {
     InstrumentState& state = instrument.state;
-    const InstrumentStringState& string = state.strings[instrument.surveyed];
-    if (string.busy > 0)
-        instrument.energy_sum_J += string_energy(instrument.loaded->model, state, instrument.surveyed);
-    for (const Voice& voice : string.voices) {
-        if (voice.phase != VoicePhase::Idle)
-            instrument.nonfinite_sum += voice.string.counters.nonfinite_resets;
-    }
+    const InstrumentModel& model = instrument.loaded->model;
+    instrument.energy_sum_J += string_energy(model, state, instrument.surveyed);
+    instrument.nonfinite_sum += nonfinite_resets(state, instrument.surveyed);
     instrument.surveyed += 1;
-    if (instrument.surveyed < state.strings.size()) return;
+    if (instrument.surveyed < model.strings.size()) return;
     instrument.surveyed = 0;
     instrument.energy_J = instrument.energy_sum_J;
     instrument.energy_sum_J = 0;
     instrument.nonfinite_resets =
-        std::max(instrument.nonfinite_resets,
-                 instrument.nonfinite_sum + state.finished.nonfinite_resets + state.body.nonfinite_resets);
+        std::max(instrument.nonfinite_resets, instrument.nonfinite_sum + finished_nonfinite_resets(state));
     instrument.nonfinite_sum = 0;
 }
 

@@ -1,4 +1,4 @@
-// What overload costs in quality: strings change rungs, a few in each block.
+// What overload costs in quality: strings change their quality level, a few in each block.
 #include <algorithm>
 
 #include "jawari/instrument/qualities.h"
@@ -8,16 +8,11 @@ namespace jawari::host {
 
 namespace {
 
-/// Strings with motions that change in one block; each conversion costs about as much as a few frames.
+/// Sounding strings that change in one block; each conversion costs about as much as a few frames.
 constexpr std::size_t most_changes = 4;
 
-bool is_held(const LiveInstrument& instrument, std::size_t s) {
-    const std::size_t course = instrument.loaded->model.strings[s].course;
-    return instrument.state.courses[course].held.active;
-}
-
-/// Rung for a string at the level; `lowest` is that of the instrument.
-std::size_t rung_at(OverloadLevel level, bool held, std::size_t lowest) {
+/// Quality level for a string under an overload; `lowest` is the last of the instrument's.
+std::size_t quality_level_at(OverloadLevel level, bool held, std::size_t lowest) {
     const auto next = std::min<std::size_t>(1, lowest);
     switch (level) {
         case OverloadLevel::Full:
@@ -45,15 +40,16 @@ void Performer::adapt_quality() JAWARI_REALTIME {
         LiveInstrument& instrument = *stage_[i];
         const InstrumentModel& model = instrument.loaded->model;
         for (std::size_t s = 0; s < model.strings.size(); ++s) {
-            InstrumentStringState& string = instrument.state.strings[s];
+            InstrumentState& state = instrument.state;
             // What rings out is held by nobody.
-            const std::size_t rung =
-                rung_at(governor_.level, i == 0 && is_held(instrument, s), model.lower.size());
-            if (string.rung != rung && (string.busy == 0 || changes < most_changes)) {
-                changes += string.busy > 0 ? 1 : 0;
-                change_rung(model, instrument.state, s, rung);
+            const bool held = i == 0 && is_held(model, state, s);
+            const std::size_t level = quality_level_at(governor_.level, held, model.lower.size());
+            const bool sounds = sounding_voices(state, s) > 0;
+            if (quality_level(state, s) != level && (!sounds || changes < most_changes)) {
+                changes += sounds ? 1 : 0;
+                change_quality(model, state, s, level);
             }
-            lowered_ += string.rung > 0 ? 1 : 0;
+            lowered_ += quality_level(state, s) > 0 ? 1 : 0;
         }
     }
     if (governor_.level != OverloadLevel::Fading) return;

@@ -15,10 +15,6 @@ namespace {
 constexpr double stage_fade_s = 0.05;
 constexpr double gain_time_s = 0.01;
 
-bool is_silent(const InstrumentState& state) {
-    return !state.busy && !state.body.ringing && at_rest(state);
-}
-
 }  // namespace
 
 void Performer::obey_commands() JAWARI_REALTIME {
@@ -31,11 +27,7 @@ bool Performer::obey(const LiveCommand& command) JAWARI_REALTIME {
     switch (command.kind) {
         case LiveCommand::Kind::SetParameter:
             if (events_.size() == events_.capacity()) return false;
-            add_event({.type = InstrumentEventType::SetParameter,
-                       .channel = command.channel,
-                       .value = command.value,
-                       .parameter = command.parameter},
-                      0);
+            add_event(set_parameter(0, command.parameter, command.value, command.channel), 0);
             return true;
         case LiveCommand::Kind::SetGain:
             gain_target_ = command.value;
@@ -86,8 +78,8 @@ void Performer::take_stage() JAWARI_REALTIME {
         stage_[sounding_ - 1]->fading = true;
         return;
     }
-    if (sounding_ > 0) waiting_->state.channels = stage_[0]->state.channels;
-    waiting_->state.frame = frame_ - clock_origin_;
+    if (sounding_ > 0) inherit_controls(stage_[0]->state, waiting_->state);
+    set_clock(waiting_->state, frame_ - clock_origin_);
     std::move_backward(stage_.begin(), stage_.begin() + static_cast<std::ptrdiff_t>(sounding_),
                        stage_.begin() + static_cast<std::ptrdiff_t>(sounding_) + 1);
     stage_[0] = std::exchange(waiting_, nullptr);
@@ -115,8 +107,8 @@ void Performer::retire_silent() JAWARI_REALTIME {
         if (static_cast<double>(old.ring_frames) > settings_.ring_out_s * settings_.rate_hz)
             old.fading = true;
         const bool faded = old.fading && static_cast<double>(old.fade_frame) > fade_frames();
-        if (faded || is_silent(old.state)) {
-            add_counters(old.state.counters, retired_counters_);
+        if (faded || at_rest(old.state)) {
+            retired_counters_ += old.state.counters;
             retired_nonfinite_ += old.nonfinite_resets;
             links_.retired.push(&old);
         } else {
@@ -144,14 +136,11 @@ void Performer::start_capture(CaptureRing* ring) JAWARI_REALTIME {
         if (!ring->messages.push({0, message})) ring->lost_messages.fetch_add(1, std::memory_order_relaxed);
     });
     const bool rests = std::all_of(stage_.begin(), stage_.begin() + static_cast<std::ptrdiff_t>(sounding_),
-                                   [](const LiveInstrument* one) { return is_silent(one->state); });
+                                   [](const LiveInstrument* one) { return at_rest(one->state); });
     if (!rests) return;
     // Control frames and vibrato count from the state's first frame, as they will when the take is rendered.
     clock_origin_ = frame_;
-    for (std::size_t i = 0; i < sounding_; ++i) {
-        stage_[i]->state.frame = 0;
-        stage_[i]->state.strokes_until = 0;
-    }
+    for (std::size_t i = 0; i < sounding_; ++i) set_clock(stage_[i]->state, 0);
 }
 
 void Performer::stop_capture() JAWARI_REALTIME {

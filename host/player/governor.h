@@ -10,9 +10,9 @@ enum class OverloadLevel : int {
     Full = 0,  ///< nothing: the instrument as its preset says
     ReleasedLower =
         1,  ///< strings that nobody holds lose their high modes and half their contact rate or more
-    ReleasedLowest = 2,  ///< these strings at the lowest rung
-    AllLower = 3,        ///< held strings too, one rung down
-    AllLowest = 4,       ///< all strings at the lowest rung
+    ReleasedLowest = 2,  ///< these strings at the lowest quality level
+    AllLower = 3,        ///< held strings too, one level down
+    AllLowest = 4,       ///< all strings at the lowest quality level
     Fading = 5           ///< instruments that ring out fade, and released motions, the oldest first
 };
 

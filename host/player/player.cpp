@@ -24,7 +24,8 @@ std::unique_ptr<LiveInstrument> make_live(const SharedInstrument& loaded, const 
     auto live = std::make_unique<LiveInstrument>();
     live->loaded = loaded;
     live->state = make_instrument_state(loaded->model);
-    live->state.play = settings.interpreter.guitar_channel >= 0 ? PlayMode::Guitar : PlayMode::Keyboard;
+    const bool guitar = settings.interpreter.guitar_channel >= 0;
+    set_play_mode(live->state, guitar ? PlayMode::Guitar : PlayMode::Keyboard);
     live->left.assign(settings.most_frames, 0.0);
     live->right.assign(settings.most_frames, 0.0);
     return live;

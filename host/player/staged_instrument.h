@@ -21,10 +21,10 @@ struct LiveInstrument {
 
     // Looked at string by string, one a block:
     std::size_t surveyed = 0;            ///< the next string
-    double energy_sum_J = 0;             ///< of the strings before it
-    std::uint64_t nonfinite_sum = 0;     ///< likewise
-    double energy_J = 0;                 ///< of all, as of the last round
-    std::uint64_t nonfinite_resets = 0;  ///< likewise
+    double energy_sum_J = 0;             ///< energy of the strings before it [J]
+    std::uint64_t nonfinite_sum = 0;     ///< nonfinite resets of the strings before it
+    double energy_J = 0;                 ///< energy of all strings, as of the last round [J]
+    std::uint64_t nonfinite_resets = 0;  ///< nonfinite resets of all strings, as of the last round
 };
 
 }  // namespace jawari::host

@@ -101,6 +101,8 @@ struct Performance {
         for (int n = 0; n < 2; ++n) render(model, state, outputs, block);
         reset(string_model, string);
         for (int n = 0; n < 2; ++n) render(model, state, outputs, block);
+        reset(model, state);
+        for (int n = 0; n < 2; ++n) render(model, state, outputs, block);
     }
 };
 
@@ -142,8 +144,15 @@ struct InstrumentPerformance {
     }
 
     void play() {
-        for (const auto& here : events)
-            render_instrument(model, state, here, InstrumentOutput{left.data(), right.data(), {}}, block);
+        const PlayMode mode = state.play;
+        for (std::size_t i = 0; i < events.size(); ++i) {
+            if (i == events.size() / 2) {
+                reset(model, state);
+                state.play = mode;
+            }
+            render_instrument(model, state, events[i], InstrumentOutput{left.data(), right.data(), {}},
+                              block);
+        }
     }
 };
 

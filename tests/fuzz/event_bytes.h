@@ -34,7 +34,7 @@ class Bytes {
     std::size_t at_ = 0;
 };
 
-enum class Between { Nothing, ChangeRung, FadeOldest, Injure };
+enum class Between { Nothing, ChangeQuality, FadeOldest, Injure };
 
 struct EventBlock {
     Between before = Between::Nothing;
@@ -120,7 +120,7 @@ inline EventBlock block_of(Bytes& bytes, bool injured) {
     const std::uint8_t mix = bytes.next();
     const std::uint8_t before = mix / 16;
     block.before = before < 9    ? Between::Nothing
-                   : before < 12 ? Between::ChangeRung
+                   : before < 12 ? Between::ChangeQuality
                    : before < 13 ? Between::FadeOldest
                    : injured     ? Between::Injure
                                  : Between::Nothing;

@@ -13,6 +13,7 @@
 #include "event_bytes.h"
 #include "instrument_watch.h"
 #include "jawari/denormals.h"
+#include "jawari/instrument/compile.h"
 #include "jawari/instrument/qualities.h"
 #include "sound.h"
 #include "support/injure.h"
@@ -43,7 +44,7 @@ Fuzzed make_fuzzed(ImpactLaw law) {
     const std::array<QualityDescription, 2> lower{
         QualityDescription{.contact_rate_min_hz = 48000, .mode_limit_hz = 1500},
         QualityDescription{.contact_rate_min_hz = 48000, .mode_limit_hz = 700}};
-    fuzz::require(!add_rungs(fuzzed.model, description, lower), "its rungs compile");
+    fuzz::require(!add_qualities(fuzzed.model, description, lower), "its qualities compile");
     return fuzzed;
 }
 
@@ -62,8 +63,8 @@ void act_between(const fuzz::EventBlock& block, const InstrumentModel& model, In
     switch (block.before) {
         case fuzz::Between::Nothing:
             break;
-        case fuzz::Between::ChangeRung:
-            change_rung(model, state, s, block.what % (model.lower.size() + 1));
+        case fuzz::Between::ChangeQuality:
+            change_quality(model, state, s, block.what % (model.lower.size() + 1));
             break;
         case fuzz::Between::FadeOldest:
             fade_oldest_released(state);

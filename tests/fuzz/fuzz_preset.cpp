@@ -6,6 +6,7 @@
 
 #include "check.h"
 #include "formats/preset/read_preset.h"
+#include "jawari/instrument/compile.h"
 #include "jawari/instrument/render.h"
 
 namespace {
@@ -26,10 +27,8 @@ bool cheap(const InstrumentDescription& instrument) {
 
 void play(const InstrumentModel& model, int key) {
     InstrumentState state = make_instrument_state(model);
-    const std::array<InstrumentEvent, 3> events{
-        InstrumentEvent{.frame = 1, .type = InstrumentEventType::NoteOn, .key = key, .value = 1},
-        InstrumentEvent{.frame = 5, .type = InstrumentEventType::NoteOn, .key = key + 1, .value = 0.5},
-        InstrumentEvent{.frame = 9, .type = InstrumentEventType::NoteOff, .key = key}};
+    const std::array<InstrumentEvent, 3> events{note_on(1, key, 1), note_on(5, key + 1, 0.5),
+                                                note_off(9, key, 0)};
     std::array<double, 16> output{};
     render_instrument(model, state, events, output.data(), output.size());
     for (const double sample : output) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Levels of the presets: a chord at velocity 127 peaks between -12 and -1 dBFS, nothing clips, no DC, both sides alike.
 
-usage: check_levels.py PROGRAM [--preset NAME]... [--suggest]     --suggest: print the gains that put the peaks at -5 dBFS
+usage: check_levels.py PROGRAM [--preset NAME]... [--suggest]     --suggest: print the gains that put the peaks at AIM_DB
 """
 import argparse
 import concurrent.futures
@@ -14,6 +14,9 @@ import numpy as np
 import play
 import preset_model as model
 
+sys.path.append(str(model.ROOT / "scripts" / "instruments"))
+from levels import AIM_DB  # noqa: E402
+
 # One note per string where the strings allow it: the loudest chord that a player would play.
 CHORDS = {
     "bass-fretted": [28, 35, 40, 44], "bass-fretless": [28, 35, 40, 44], "bass-slap": [28, 35, 40, 44],
@@ -22,7 +25,7 @@ CHORDS = {
     "biwa": [43, 43, 48, 55], "harpsichord": [36, 43, 48, 52, 55, 60, 64, 67], "clavichord": [36, 48, 55, 60, 64, 67],
     "dulcimer": [50, 57, 62, 66, 69, 74], "prepared": [48, 52, 55, 60, 64, 67, 72],
 }
-LOWEST_DB, HIGHEST_DB, AIM_DB = -12.0, -1.0, -5.0
+LOWEST_DB, HIGHEST_DB = -12.0, -1.0
 DC_LIMIT_DB = -80.0
 BALANCE_LIMIT_DB = 3.0
 

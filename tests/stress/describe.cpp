@@ -58,7 +58,7 @@ std::string describe(const HostileInstrument& hostile) {
     const InstrumentDescription& instrument = hostile.description;
     out << hostile.kind << ": " << name_of(instrument.law) << ", " << hostile.output_rate_hz << " Hz, "
         << instrument.quality.contact_rate_min_hz << " Hz, modes to " << instrument.quality.mode_limit_hz
-        << " Hz, " << instrument.strings.size() << " strings, " << hostile.lower.size() << " rungs";
+        << " Hz, " << instrument.strings.size() << " strings, " << hostile.lower.size() << " quality levels";
     for (const InstrumentStringDescription& string : instrument.strings)
         out << "; string of " << string.open_frequency_hz << " Hz, " << string.length_m << " m, "
             << string.linear_density_kg_per_m << " kg/m, B " << string.inharmonicity;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "jawari/instrument/compile.h"
 #include "jawari/instrument/description.h"
 #include "jawari/result.h"
 
@@ -21,7 +22,7 @@ PresetShelf factory_presets();
 struct HostileInstrument {
     std::string kind;
     InstrumentDescription description;
-    std::vector<QualityDescription> lower;  ///< rungs
+    std::vector<QualityDescription> lower;  ///< quality levels 1, 2, ...
     double output_rate_hz = 48000;
 };
 

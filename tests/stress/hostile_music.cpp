@@ -6,7 +6,9 @@
 namespace jawari::stress {
 
 HostileMusic::HostileMusic(const InstrumentModel& model, std::uint64_t seed)
-    : dice_(seed ^ 0x5EEDCAFE12345678ULL), strings_(model.strings.size()), rungs_(model.lower.size()) {
+    : dice_(seed ^ 0x5EEDCAFE12345678ULL),
+      strings_(model.strings.size()),
+      lower_qualities_(model.lower.size()) {
     for (const InstrumentStringModel& string : model.strings) {
         for (const StoppedStringModel& stopped : string.stopped) {
             if (stopped.key >= 0) keys_.push_back(stopped.key);
@@ -91,8 +93,8 @@ InstrumentEvent HostileMusic::event() {
 MusicBlock HostileMusic::next() {
     MusicBlock block;
     block.frames = dice_.spread_whole(1, 512);
-    if (rungs_ > 0 && dice_.chance(0.3))
-        block.rungs.push_back({dice_.whole(0, strings_ - 1), dice_.whole(0, rungs_)});
+    if (lower_qualities_ > 0 && dice_.chance(0.3))
+        block.quality_changes.push_back({dice_.whole(0, strings_ - 1), dice_.whole(0, lower_qualities_)});
     for (std::size_t n = dice_.whole(0, most_events_); n > 0; --n) {
         InstrumentEvent next = event();
         next.frame = dice_.whole(0, block.frames - 1);

@@ -1,5 +1,5 @@
 // Hostile playing of an instrument: note storms, every parameter in motion, wide bends, pedals, changes of
-// rung, in blocks of random length.
+// quality level, in blocks of random length.
 #pragma once
 
 #include <cstddef>
@@ -12,15 +12,15 @@
 
 namespace jawari::stress {
 
-struct RungChange {
+struct QualityChange {
     std::size_t string = 0;
-    std::size_t rung = 0;
+    std::size_t quality_level = 0;
 };
 
 struct MusicBlock {
     std::size_t frames = 1;
-    std::vector<RungChange> rungs;        ///< before the block
-    std::vector<InstrumentEvent> events;  ///< in order
+    std::vector<QualityChange> quality_changes;  ///< before the block
+    std::vector<InstrumentEvent> events;         ///< in order
 };
 
 /// The blocks of a performance, one after another: the same for the same seed.
@@ -39,7 +39,7 @@ class HostileMusic {
 
     Dice dice_;
     std::vector<int> keys_;
-    std::size_t strings_ = 0, rungs_ = 0;
+    std::size_t strings_ = 0, lower_qualities_ = 0;
     std::size_t most_events_ = 1;
     int channels_ = 1;
     double bend_range_ = 2;

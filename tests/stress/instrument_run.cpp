@@ -8,6 +8,7 @@
 #include "instrument_watch.h"
 #include "invariants.h"
 #include "jawari/denormals.h"
+#include "jawari/instrument/compile.h"
 #include "jawari/instrument/qualities.h"
 #include "sound.h"
 
@@ -29,8 +30,9 @@ std::vector<InstrumentEvent> events_between(const std::vector<InstrumentEvent>& 
     return chosen;
 }
 
-void change_rungs(const MusicBlock& block, const InstrumentModel& model, InstrumentState& state) {
-    for (const RungChange& change : block.rungs) change_rung(model, state, change.string, change.rung);
+void change_qualities(const MusicBlock& block, const InstrumentModel& model, InstrumentState& state) {
+    for (const QualityChange& change : block.quality_changes)
+        change_quality(model, state, change.string, change.quality_level);
 }
 
 struct Stage {
@@ -52,7 +54,7 @@ void play_checked(const Stage& stage, std::size_t piece_frames, Report& report, 
     while (stage.goes_on(report)) {
         const MusicBlock block = music.next();
         watch.begin_piece(state);
-        change_rungs(block, stage.model, state);
+        change_qualities(block, stage.model, state);
         for (std::size_t done = 0; done < block.frames;) {
             const std::size_t frames = std::min(piece_frames, block.frames - done);
             if (done > 0) watch.begin_piece(state);
@@ -66,7 +68,7 @@ void play_checked(const Stage& stage, std::size_t piece_frames, Report& report, 
     }
 }
 
-/// The same music; what lies between two changes of rung is cut anew.
+/// The same music; what lies between two changes of quality is cut anew.
 void play_recut(const Stage& stage, const Report& report, InstrumentState& state, Sound& sound) {
     HostileMusic music(stage.model, report.seed);
     Dice dice(~report.seed);
@@ -84,9 +86,9 @@ void play_recut(const Stage& stage, const Report& report, InstrumentState& state
     };
     for (std::uint64_t b = 0; b < report.blocks; ++b) {
         const MusicBlock block = music.next();
-        if (!block.rungs.empty() || waiting.frames > 4096) {
+        if (!block.quality_changes.empty() || waiting.frames > 4096) {
             render_waiting();
-            change_rungs(block, stage.model, state);
+            change_qualities(block, stage.model, state);
         }
         for (InstrumentEvent event : block.events) {
             event.frame += waiting.frames;
@@ -135,7 +137,7 @@ Report run_instrument(const PresetShelf& shelf, std::uint64_t seed, const Budget
     auto compiled = compile_instrument(hostile.description, hostile.output_rate_hz);
     if (!compiled) {
         report.refused = compiled.failure().line();
-    } else if (const auto failure = add_rungs(compiled.value(), hostile.description, hostile.lower)) {
+    } else if (const auto failure = add_qualities(compiled.value(), hostile.description, hostile.lower)) {
         report.refused = failure->line();
     } else {
         play({hostile, compiled.value(), budget, start_cpu_s}, report);

@@ -18,19 +18,19 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double strongest_magnet = 125;
 
 double total(const PlayerWork& work) {
-    return work.exciters_J + work.touches_J + work.bends_J + work.transfers_J + work.rungs_J;
+    return work.exciters_J + work.touches_J + work.bends_J + work.transfers_J + work.quality_changes_J;
 }
 
 double size_of(const PlayerWork& work) {
     return std::abs(work.exciters_J) + std::abs(work.touches_J) + std::abs(work.bends_J) +
-           std::abs(work.transfers_J) + std::abs(work.rungs_J);
+           std::abs(work.transfers_J) + std::abs(work.quality_changes_J);
 }
 
 /// Sum of the amounts by which each kind of work has changed.
 double moved_since(const PlayerWork& before, const PlayerWork& now) {
     return size_of({now.exciters_J - before.exciters_J, now.touches_J - before.touches_J,
                     now.bends_J - before.bends_J, now.transfers_J - before.transfers_J,
-                    now.rungs_J - before.rungs_J});
+                    now.quality_changes_J - before.quality_changes_J});
 }
 
 ContactReach contact_reach(const StringModel& model) {
@@ -93,7 +93,7 @@ InstrumentWatch::Energies InstrumentWatch::energies_of(const InstrumentState& st
             if (voice.phase == VoicePhase::Idle) continue;
             const StringModel& model = voice_model(string, voice);
             const double energy_J = energy(model, voice.string);
-            const ContactReach& reach = contacts_[state.strings[s].rung][s][voice.fret];
+            const ContactReach& reach = contacts_[state.strings[s].quality_level][s][voice.fret];
             const double gap_size = bound_of(reach.extent, energy_J) + reach.height_m;
             const double of_step = step_rounding(model) * energy_J;
             sum.beyond_rest += energy_J - string.stopped[voice.fret].held_energy_J;
@@ -140,18 +140,19 @@ void InstrumentWatch::check_energy(const InstrumentState& state, double frames, 
     judge.at_most(Invariant::EnergyRise, now.beyond_rest - before_.beyond_rest - work, allowed, "instrument");
 }
 
-/// Bends, hand-overs and rungs convert the backward velocity of a string that may be in contact: it then
-/// comes from inside an obstacle, and may stay there (docs/engine/stability.md, "What the player changes").
+/// Bends, hand-overs and changes of quality convert the backward velocity of a string that may be in contact:
+/// it then comes from inside an obstacle, and may stay there (docs/engine/stability.md, "What the player
+/// changes").
 void InstrumentWatch::check_gaps(const InstrumentState& state, Judge& judge) {
     const PlayerWork& work = state.work;
     const Counters counters = contact_counters(state);
-    const bool converted = work.bends_J != 0 || work.transfers_J != 0 || work.rungs_J != 0;
+    const bool converted = work.bends_J != 0 || work.transfers_J != 0 || work.quality_changes_J != 0;
     if (!never_penetrates_ || converted || counters.truncated_solves > 0) return;
     for (std::size_t s = 0; s < state.strings.size(); ++s) {
         for (const Voice& voice : state.strings[s].voices) {
             if (voice.phase == VoicePhase::Idle) continue;
             const StringModel& model = string_of(model_, state, s).stopped[voice.fret].string;
-            const ContactReach& reach = contacts_[state.strings[s].rung][s][voice.fret];
+            const ContactReach& reach = contacts_[state.strings[s].quality_level][s][voice.fret];
             const double size = bound_of(reach.extent, energy(model, voice.string)) + reach.height_m;
             gap_rounding_m_ = std::max(gap_rounding_m_, gap_rounding_share(model) * size);
         }

@@ -54,7 +54,7 @@ class InstrumentWatch {
     const InstrumentModel& model_;
     bool frame_by_frame_ = false;
     bool passive_ = true;  ///< what obstacles do cannot raise the energy: all laws but newton
-    std::vector<std::vector<std::vector<ContactReach>>> contacts_;  ///< [rung][string][fret]
+    std::vector<std::vector<std::vector<ContactReach>>> contacts_;  ///< [quality level][string][fret]
     bool never_penetrates_ = false;                                 ///< signorini
     double gap_rounding_m_ = 0;                                     ///< largest so far
     double body_left_ = 0, body_right_ = 0;  ///< most that the body answers to a force of at most 1 N

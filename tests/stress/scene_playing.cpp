@@ -78,9 +78,12 @@ void act(const PlayedBlock& block, const SceneModel& model, double height_m, Sce
         apply_force(force, model.strings[force.string], height_m, block.frames, state.strings[force.string]);
     for (const MoveAction& move : block.moves) {
         const StringModel& string = model.strings[move.string];
-        if (string.contact_count == 0) continue;
-        const std::size_t contact = move.contact % string.contact_count;
-        const double sign = string.contact_side[contact] == Side::Below ? 1.0 : -1.0;
+        if (string.contact_of_description.empty()) continue;
+        const std::size_t contact = move.contact % string.contact_of_description.size();
+        const std::ptrdiff_t kept = string.contact_of_description[contact];
+        if (kept < 0) continue;
+        const Side side = string.contact_side[static_cast<std::size_t>(kept)];
+        const double sign = side == Side::Below ? 1.0 : -1.0;
         move_contact(string, state.strings[move.string], contact, sign * move.height * height_m, move.steps);
     }
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "jawari/instrument/compile.h"
 #include "jawari/instrument/render.h"
 
 namespace {
@@ -43,10 +44,9 @@ jawari::InstrumentDescription bass() {
 // Events carry their frame inside the block. Here: A2 (fret 7 of D) 100 frames into the first block, a hard
 // G2 40 frames into block 50, and both keys up in block 150.
 std::vector<jawari::InstrumentEvent> events_of(std::size_t index) {
-    using Type = jawari::InstrumentEventType;
-    if (index == 0) return {{.frame = 100, .type = Type::NoteOn, .key = 45, .value = 0.5}};
-    if (index == 50) return {{.frame = 40, .type = Type::NoteOn, .key = 43, .value = 1}};
-    if (index == 150) return {{.type = Type::NoteOff, .key = 45}, {.type = Type::NoteOff, .key = 43}};
+    if (index == 0) return {jawari::note_on(100, 45, 0.5)};
+    if (index == 50) return {jawari::note_on(40, 43, 1)};
+    if (index == 150) return {jawari::note_off(0, 45), jawari::note_off(0, 43)};
     return {};
 }
 

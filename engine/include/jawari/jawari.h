@@ -1,24 +1,30 @@
-// Everything an embedding program needs: description -> compile() -> model -> state -> render(),
-// for scenes of strings (scene/) and for instruments played by events (instrument/).
+// Everything an embedding program needs: description -> compile() -> model -> state -> render(), for scenes
+// of strings (scene/) and for instruments played by events (instrument/). Headers in detail/ hold the models
+// and states, whose fields may change with every minor version. realtime.h states the rules for threads.
 #pragma once
 
 #include "jawari/denormals.h"
 #include "jawari/detail/step_coefficients.h"
 #include "jawari/detail/string_model.h"
 #include "jawari/detail/string_state.h"
+#include "jawari/instrument/compile.h"
 #include "jawari/instrument/description.h"
+#include "jawari/instrument/events.h"
 #include "jawari/instrument/model.h"
 #include "jawari/instrument/qualities.h"
 #include "jawari/instrument/render.h"
 #include "jawari/instrument/state.h"
 #include "jawari/parameters.h"
+#include "jawari/realtime.h"
 #include "jawari/result.h"
 #include "jawari/scene/compile.h"
 #include "jawari/scene/cost.h"
+#include "jawari/scene/counters.h"
 #include "jawari/scene/description.h"
 #include "jawari/scene/energy.h"
 #include "jawari/scene/modes.h"
 #include "jawari/scene/obstacles.h"
+#include "jawari/scene/reading.h"
 #include "jawari/scene/render.h"
 #include "jawari/scene/resolution.h"
 #include "jawari/scene/skipping.h"

@@ -1,5 +1,5 @@
 // The parameters that may change while an instrument plays, declared once: command line, preset, MIDI map and
-// plugin read this table. Ids and keys are frozen: new parameters are added at the end.
+// plugin read this table.
 #pragma once
 
 #include <array>
@@ -9,6 +9,8 @@
 
 namespace jawari {
 
+/// Number of a parameter. Numbers are stable: a new parameter is added at the end. parameter_table() says
+/// what each one does.
 enum class ParameterId : std::size_t {
     Volume,
     Expression,
@@ -40,22 +42,24 @@ enum class Curve {
     Stepped       ///< Linear, rounded to whole numbers
 };
 
-/// Who follows a change.
+/// What follows a change of a parameter.
 enum class Reach {
     Sounding,  ///< sounding notes, smoothly
     NextNote,  ///< notes that start afterwards
-    Host       ///< not the engine: the MIDI interpreter
+    Host       ///< the host's MIDI interpreter; the engine stores the value and does not read it
 };
 
+/// What a parameter is.
 struct ParameterDeclaration {
-    ParameterId id;
-    std::string_view key;  ///< in files and on the command line
-    std::string_view unit;
-    double low, high;
-    double neutral;  ///< the instrument as its preset describes it
-    Curve curve;
-    Reach reach;
-    std::string_view text;
+    ParameterId id;         ///< its number, the index into parameter_table()
+    std::string_view key;   ///< its name in files and on the command line; stable
+    std::string_view unit;  ///< of low, high and neutral: "1" for ratios, else SI or musical
+    double low;             ///< smallest value
+    double high;            ///< largest value
+    double neutral;         ///< value at which the instrument is as its preset describes it
+    Curve curve;            ///< how a control covers low to high
+    Reach reach;            ///< what follows a change
+    std::string_view text;  ///< what it does, one phrase
 };
 
 namespace detail {
@@ -102,20 +106,25 @@ inline constexpr std::array<ParameterDeclaration, 20> parameters{{
 }};
 }  // namespace detail
 
+/// Number of parameters.
 inline constexpr std::size_t parameter_count = detail::parameters.size();
 
+/// All parameters, in order of ParameterId. Threads: any; realtime-safe.
 constexpr std::span<const ParameterDeclaration, parameter_count> parameter_table() {
     return detail::parameters;
 }
 
+/// What the parameter is. Threads: any; realtime-safe.
 constexpr const ParameterDeclaration& declaration_of(ParameterId id) {
     return detail::parameters[static_cast<std::size_t>(id)];
 }
 
-/// Value at `travel` (0 to 1) of a control.
+/// Value at which a control stands at `travel` of its way, 0 to 1 (clamped), in the parameter's unit.
+/// Threads: any; realtime-safe.
 double parameter_value(const ParameterDeclaration& parameter, double travel) noexcept;
 
-/// Travel at which a control stands for `value` (low to high).
+/// Travel, 0 to 1, at which a control stands for `value`, low to high (clamped): the inverse of
+/// parameter_value() but for the rounding of Curve::Stepped. Threads: any; realtime-safe.
 double parameter_travel(const ParameterDeclaration& parameter, double value) noexcept;
 
 }  // namespace jawari

@@ -38,7 +38,7 @@ Outcome<Job> survey(const std::string& preset, const LatencyOptions& options) {
     InstrumentSettings settings;
     settings.output_rate_hz = options.rate_hz;
     settings.quality = options.quality;
-    settings.rungs = options.governor;
+    settings.lower_qualities = options.governor;
     InstrumentCache cache(settings);
     bool compiled = false;
     auto instrument = cache.get(preset, compiled);

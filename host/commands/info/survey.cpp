@@ -45,11 +45,8 @@ std::vector<InstrumentEvent> all_strings(const InstrumentDescription& instrument
     for (std::size_t s = 0; s < instrument.strings.size(); ++s) {
         const InstrumentStringDescription& string = instrument.strings[s];
         if (string.course && !courses.insert(*string.course).second) continue;
-        events.push_back({.type = InstrumentEventType::NoteOn,
-                          .channel = static_cast<int>(s % midi_channels),
-                          .key = string.open_note,
-                          .value = 1,
-                          .string = static_cast<int>(s)});
+        events.push_back(
+            note_on_string(0, static_cast<int>(s), string.open_note, 1, static_cast<int>(s % midi_channels)));
     }
     return events;
 }

@@ -24,7 +24,7 @@ Outcome<InstrumentSettings> instrument_settings(const PlayOptions& options, doub
     settings.output_rate_hz = rate_hz;
     settings.quality = options.quality.value_or(Quality::Live);
     settings.move_frets = options.move_frets.value_or(false);
-    settings.rungs = !options.fixed_quality.value_or(false);
+    settings.lower_qualities = !options.fixed_quality.value_or(false);
     if (!options.tuning) return settings;
     const auto tuning = load_tuning(*options.tuning, options.keyboard_map.value_or(""));
     if (!tuning) return tuning.error();

@@ -51,7 +51,7 @@ Ensemble make_ensemble(const Score& score, const std::vector<SharedInstrument>& 
     for (std::size_t i = 0; i < instruments.size(); ++i) {
         ensemble.parts.push_back(
             {instruments[i], make_instrument_state(instruments[i]->model), &score.parts[i], 0});
-        ensemble.parts.back().state.play = score.parts[i].play;
+        set_play_mode(ensemble.parts.back().state, score.parts[i].play);
     }
     name_stems(ensemble);
     if (with_stems) ensemble.stems.resize(ensemble.stem_names.size());

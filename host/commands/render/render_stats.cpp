@@ -42,7 +42,7 @@ InstrumentCounters all_notes(const RenderStats& stats) {
 
 Counters all_contacts(const RenderStats& stats) {
     Counters sum;
-    for (const PartStats& part : stats.parts) accumulate(part.contacts, sum);
+    for (const PartStats& part : stats.parts) sum += part.contacts;
     return sum;
 }
 

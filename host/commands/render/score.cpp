@@ -38,11 +38,7 @@ class ScoreMaker {
     void finish() {
         for (ScorePart& part : score_.parts) {
             for (const auto& [parameter, value] : rules_.parameters)
-                part.events.push_back({0,
-                                       {.type = InstrumentEventType::SetParameter,
-                                        .channel = -1,
-                                        .value = value,
-                                        .parameter = parameter}});
+                part.events.push_back({0, set_parameter(0, parameter, value, every_channel)});
         }
         for (const Routed& routed : routed_) {
             if (routed.timed.event.type == InstrumentEventType::NoteOn) {

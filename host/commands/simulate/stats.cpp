@@ -44,7 +44,7 @@ SimulationStats collect_stats(const Scene& scene, const SceneModel& model, const
 
 Counters total_counters(const SimulationStats& stats) {
     Counters total;
-    for (const StringStats& string : stats.strings) accumulate(string.counters, total);
+    for (const StringStats& string : stats.strings) total += string.counters;
     return total;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jawari/instrument/compile.h"
 #include "jawari/instrument/qualities.h"
 #include "player/governor.h"
 #include "support/live_stage.h"
@@ -101,7 +102,7 @@ SharedInstrument laddered(const std::string& name) {
     auto loaded = std::make_shared<LoadedInstrument>();
     loaded->model = compile_instrument(preset.instrument, rate_hz).value();
     const std::vector<QualityDescription> lower{{2 * rate_hz, 3000}, {rate_hz, 1500}};
-    EXPECT_FALSE(add_rungs(loaded->model, preset.instrument, lower));
+    EXPECT_FALSE(add_qualities(loaded->model, preset.instrument, lower));
     loaded->preset = preset;
     return loaded;
 }
@@ -183,7 +184,7 @@ TEST(LiveOverload, NoChangeOfQualityClicks) {
             std::int64_t now = play(player, sound, 1'000'000'000, 40);
             const std::size_t at = sound.left.size();
             if (overloaded) set_load(0.95);
-            now = play(player, sound, now, 15);  // down to the lowest rung
+            now = play(player, sound, now, 15);  // down to the lowest quality level
             set_load(0.1);
             play(player, sound, now, 300);  // and back
             rough[overloaded ? 1 : 0] = roughness(sound.left, at - 64, sound.left.size() - 1);

@@ -10,6 +10,7 @@
 
 #include "commands/bench_latency/adversary.h"
 #include "instrument/instrument_cache.h"
+#include "jawari/instrument/compile.h"
 #include "jawari/instrument/qualities.h"
 #include "player/player.h"
 
@@ -17,16 +18,16 @@ namespace jawari::test {
 
 /// A factory preset made cheap: few strings, few modes, a low contact rate.
 inline host::SharedInstrument small_live_instrument(const std::string& name, double rate_hz = 48000,
-                                                    std::size_t strings = 3, bool rungs = false) {
+                                                    std::size_t strings = 3, bool lower_qualities = false) {
     const host::InstrumentSettings settings;
     host::Preset preset = host::load_with(name, settings).value();
     preset.instrument.quality = {2 * rate_hz, 3000};
     if (preset.instrument.strings.size() > strings) preset.instrument.strings.resize(strings);
     auto loaded = std::make_shared<host::LoadedInstrument>();
     loaded->model = compile_instrument(preset.instrument, rate_hz).value();
-    if (rungs) {
+    if (lower_qualities) {
         const std::vector<QualityDescription> lower{{2 * rate_hz, 1500}, {rate_hz, 800}};
-        EXPECT_FALSE(add_rungs(loaded->model, preset.instrument, lower));
+        EXPECT_FALSE(add_qualities(loaded->model, preset.instrument, lower));
     }
     loaded->preset = preset;
     return loaded;

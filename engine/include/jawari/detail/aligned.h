@@ -7,10 +7,12 @@
 
 namespace jawari {
 
-inline constexpr std::size_t vector_alignment = 64;  ///< [bytes]
+/// Alignment of the storage [bytes]: a cache line, and the widest SIMD register.
+inline constexpr std::size_t vector_alignment = 64;
 /// Mode counts are padded to a multiple of this many doubles with modes that stay at rest.
 inline constexpr std::size_t lane_padding = 8;
 
+/// Standard allocator whose storage is aligned to vector_alignment.
 template <class T>
 struct AlignedAllocator {
     using value_type = T;
@@ -27,6 +29,7 @@ struct AlignedAllocator {
     }
 };
 
+/// std::vector with aligned storage.
 template <class T>
 using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 

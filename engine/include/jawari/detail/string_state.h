@@ -13,50 +13,14 @@
 #include "jawari/detail/index_list.h"
 #include "jawari/detail/lcp.h"
 #include "jawari/detail/string_model.h"
+#include "jawari/scene/counters.h"
+#include "jawari/scene/energy.h"
 #include "jawari/scene/skipping.h"
 
 namespace jawari {
 
 /// The number of no frame: a value stamped with it holds nowhere.
 inline constexpr std::uint64_t unknown_frame = std::numeric_limits<std::uint64_t>::max();
-
-/// What happened since make_state().
-struct Counters {
-    std::uint64_t steps = 0;       ///< contact steps simulated
-    std::uint64_t candidates = 0;  ///< evaluated contacts that were candidates of their step's law
-    std::uint64_t impulses = 0;    ///< impulses > 0
-    std::uint64_t solves = 0;      ///< complementarity problems with a violated candidate
-    std::uint64_t truncated_solves =
-        0;                            ///< solves stopped by the bound on operations, made passive by scaling
-    std::uint64_t flown_frames = 0;   ///< frames crossed by free flight
-    std::uint64_t near_frames = 0;    ///< frames stepped finely for the contacts that might close
-    std::uint64_t asleep_frames = 0;  ///< frames that cost nothing
-    std::uint64_t nonfinite_resets =
-        0;  ///< times the string was put to rest because its state was not finite
-    double worst_residual_m =
-        0;  ///< largest LCP residual max_c |min(y - tau, A_cc lambda)| of finished solves
-    double worst_penetration_m = 0;  ///< largest -gap
-};
-
-/// Sums, and the worst of residuals and penetrations.
-void accumulate(const Counters& more, Counters& sum) noexcept;
-
-/// Energies in joules, accumulated while metering is on (Metering::Step).
-struct EnergyMeter {
-    double initial = 0;          ///< H at make_state()
-    double highest = 0;          ///< largest H seen (each step with Metering::Step, else each frame)
-    double dissipated = 0;       ///< by the string's own losses, >= 0
-    double contact_work = 0;     ///< sum lambda (y+ - y_before)/(2h): work of impacts on the string
-    double player_work = 0;      ///< sum lambda (b+ - b_before)/(2h): work of moving obstacles
-    double worst_imbalance = 0;  ///< largest |H+ - H + losses - works| of one step
-    double worst_rise = 0;       ///< largest H+ - H - player's work of one step
-};
-
-enum class Metering {
-    Off,
-    Frame,  ///< H at the end of each frame in which it may have risen
-    Step    ///< the whole balance at each step; about twice the cost
-};
 
 /// What a frame that is solved again must find as it was at the frame's start.
 struct ContactGaps {
@@ -338,6 +302,10 @@ StringState make_string_state(const StringModel& model, Metering metering = Mete
 
 /// Back to t = 0, counters and meters cleared; does not allocate.
 void reset(const StringModel& model, StringState& state) noexcept;
+
+/// Sets the whole scene back to t = 0: every string and SceneState::frame. `state` must have been made for
+/// `model`. Threads: one at a time per state; realtime-safe.
+void reset(const SceneModel& model, SceneState& state) noexcept;
 
 /// To be called when displacement, velocity, the model or the force row were changed from outside between
 /// frames: the gaps are computed anew, every bound is forgotten, a sleeping string wakes.

@@ -1,4 +1,4 @@
-// What hands do to one motion of a string: plain state, see instrument_touch.h and instrument_exciter.h.
+// What hands and exciters do to one voice of a string: plain state, which engine/src/instrument/touch writes.
 #pragma once
 
 #include <array>
@@ -19,56 +19,63 @@ enum class TouchSlot : std::size_t {
     SoftFirst,      ///< felt or cotton that always lies on the string
     SoftSecond
 };
+/// Number of places for touches.
 inline constexpr std::size_t touch_slots = 7;
 
 /// Where a force acts over the current frame. With w = phi (q - h v/2) there:
 struct TouchedPoint {
-    double force_N = 0;  ///< held
-    double start_m = 0;  ///< w at the frame's start
-    double path_m = 0;   ///< its change over the frame if no contact acts
+    double force_N = 0;  ///< held over the frame [N]
+    double start_m = 0;  ///< w at the frame's start [m]
+    double path_m = 0;   ///< change of w over the frame if no contact acts [m]
 };
 
 /// A dashpot and a spring at a place: F = -c dw/dt - k (w - rest).
 struct Touch {
     bool active = false;
-    double damping_kg_per_s = 0;    ///< c in force, following `pressed`
-    double pressed_kg_per_s = 0;    ///< c as asked for
-    double stiffness_N_per_m = 0;   ///< k
-    double share = 1;               ///< of c and k in force: comes and leaves gradually
-    double share_rate = 0;          ///< its change per frame
-    double rest_m = 0;              ///< w at which the spring is relaxed
-    std::uint64_t frames_left = 0;  ///< then it begins to leave; 0: it stays
-    // A hand covers more than a point: its place sweeps over sweep_m to either side, so that no mode has a
-    // node under it for long. The force of a frame dissipates wherever the touch lies in it.
-    double x_m = 0, width_m = 0, sweep_m = 0;
-    std::uint64_t age = 0;      ///< frames since it was laid
-    std::size_t modes = 0;      ///< that it reaches (padded); `row` counts up to here
+    double damping_kg_per_s = 0;    ///< c in force, follows pressed_kg_per_s [kg/s]
+    double pressed_kg_per_s = 0;    ///< c as asked for [kg/s]
+    double stiffness_N_per_m = 0;   ///< k [N/m]
+    double share = 1;               ///< share of c and k in force, 0 to 1: a touch comes and leaves gradually
+    double share_rate = 0;          ///< change of `share` per output frame
+    double rest_m = 0;              ///< w at which the spring is relaxed [m]
+    std::uint64_t frames_left = 0;  ///< output frames after which it begins to leave; 0: it stays
+    double x_m = 0;                 ///< place, from the start of the speaking length [m]
+    double width_m = 0;             ///< over which the force is spread [m]
+    /// A hand covers more than a point: its place sweeps by this much to either side, so that no mode has a
+    /// node under it for long [m]. The force of a frame dissipates wherever the touch lies in it.
+    double sweep_m = 0;
+    std::uint64_t age = 0;      ///< output frames since it was laid
+    std::size_t modes = 0;      ///< number of modes that it reaches (padded); `row` counts up to here
     AlignedVector<double> row;  ///< phi_k averaged over the width [m^(-1/2)]; 0 from `modes` on
     TouchedPoint point;
 };
 
+/// What excites the string now.
 enum class ExciterPhase { None, Finger, Hammer, Tangent };
 
+/// An exciter at work.
 struct ExciterState {
-    ExciterPhase phase = ExciterPhase::None;
-    AlignedVector<double> row;  ///< as a touch's; of a tangent integral of (1 - x/L) phi_k [m^(1/2)]
-    std::uint64_t frame = 0;    ///< since it began
-    std::uint64_t rise_frames = 0;
-    std::uint64_t release_frames = 0;
-    double peak = 0;  ///< finger: force [N]; tangent: mu times height [kg]
-    // hammer
-    double position_m = 0;
-    double speed_m_per_s = 0;
-    double mass_kg = 0;
-    double stiffness = 0;  ///< K [N/m^p]
-    double exponent = 0;   ///< p
-    double loss_s_per_m = 0;
-    bool has_touched = false;
+    ExciterPhase phase = ExciterPhase::None;  ///< what excites the string
+    /// phi_k averaged over the exciter's width [m^(-1/2)]; of a tangent integral of (1 - x/L) phi_k
+    /// [m^(1/2)].
+    AlignedVector<double> row;
+    std::uint64_t frame = 0;           ///< output frames since it began
+    std::uint64_t rise_frames = 0;     ///< finger, tangent: output frames of the rise
+    std::uint64_t release_frames = 0;  ///< finger: output frames of the release
+    double peak = 0;                   ///< finger: force [N]; tangent: mu times height [kg]
+    double position_m = 0;             ///< hammer: its place z on the axis of w [m]
+    double speed_m_per_s = 0;          ///< hammer: speed at the frame's start [m/s]
+    double mass_kg = 0;                ///< hammer [kg]
+    double stiffness = 0;              ///< hammer: K [N/m^p]
+    double exponent = 0;               ///< hammer: p
+    double loss_s_per_m = 0;           ///< hammer: HammerDescription::loss_s_per_m [s/m]
+    bool has_touched = false;          ///< hammer: it has met the string
     TouchedPoint point;
 };
 
+/// All touches and the exciter of one voice.
 struct TouchState {
-    std::array<Touch, touch_slots> touches;
+    std::array<Touch, touch_slots> touches;  ///< by TouchSlot
     ExciterState exciter;
     /// G_ij = displacement at i at a frame's end per newton held at j [m/N]; the exciter is last.
     std::array<double, (touch_slots + 1) * (touch_slots + 1)> compliance{};
@@ -76,15 +83,17 @@ struct TouchState {
     AlignedVector<double> moved;  ///< scratch over modes
 };
 
-/// What players have done to the strings so far [J]. Each is measured as force times the path of its point.
+/// Energies that players have given to the strings since make_instrument_state() or reset() [J]. Those of
+/// forces are measured as force times the path of its point.
 struct PlayerWork {
-    double exciters_J = 0;
-    double touches_J = 0;    ///< dashpots and springs: not above 0 but for the springs' own store, unless a
-                             ///< contact acted within the frame
-    double bends_J = 0;      ///< parametric work of retuning
-    double transfers_J = 0;  ///< legato: energy of the motion after less that before
-    double rungs_J = 0;  ///< likewise of change_rung(): of the modes that are left out, but for rounding of
-                         ///< the order of the step
+    double exciters_J = 0;   ///< work of fingers, hammers and tangents [J]
+    double touches_J = 0;    ///< work of dashpots and springs [J]: not above 0 but for what the springs hold,
+                             ///< unless a contact acted within the frame
+    double bends_J = 0;      ///< parametric work of retuning [J]
+    double transfers_J = 0;  ///< legato: energy of the new voice less that of the old one [J]
+    /// change_quality(): energy after less energy before, of the modes that are left out, but for rounding of
+    /// the order of the step [J].
+    double quality_changes_J = 0;
 };
 
 }  // namespace jawari

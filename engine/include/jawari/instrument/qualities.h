@@ -1,5 +1,5 @@
-// Rungs: an instrument compiled at several qualities, between which each string changes while it sounds. For
-// hosts that must not be late: fewer modes and contact steps cost less.
+// Quality levels of one instrument. A string can switch level while it sounds, so that a real-time host can
+// lower the load (fewer modes, fewer contact steps).
 #pragma once
 
 #include <cstddef>
@@ -14,19 +14,26 @@
 
 namespace jawari {
 
-/// Adds the instrument's strings at lower qualities to its model, which `instrument` was compiled to. States
-/// are to be made afterwards. Fails where compile_instrument() would; a quality at which strings have other
-/// contacts is refused.
-std::optional<Failure> add_rungs(InstrumentModel& model, const InstrumentDescription& instrument,
-                                 std::span<const QualityDescription> lower);
+/// Compiles the strings of `instrument`, which `model` was compiled from, at further qualities and adds them
+/// to the model as quality levels 1, 2, ... in the order of `lower`. Make states after this call. Fails
+/// where compile_instrument() would, and if a string has other contacts at one of the qualities; the model
+/// then keeps the levels added before. Threads: no other thread may use the model meanwhile. Allocates.
+std::optional<Failure> add_qualities(InstrumentModel& model, const InstrumentDescription& instrument,
+                                     std::span<const QualityDescription> lower);
 
-/// String s goes on at another rung, 0 to model.lower.size(): shape and true velocity of the modes that both
-/// have stay as they are, modes that only one has are left out or start at rest. The difference in energy is
-/// metered (PlayerWork::rungs_J). Between blocks.
-void change_rung(const InstrumentModel& model, InstrumentState& state, std::size_t s,
-                 std::size_t rung) JAWARI_REALTIME;
+/// Switches string `string` (index) to quality level `level`, 0 (full) to model.lower.size(); a level beyond
+/// changes nothing. Modes that both levels have keep their shape and true velocity; modes that only one has
+/// are left out or start at rest. PlayerWork::quality_changes_J meters the difference in energy. Call it
+/// between blocks. Threads: one at a time per state; realtime-safe.
+void change_quality(const InstrumentModel& model, InstrumentState& state, std::size_t string,
+                    std::size_t level) JAWARI_REALTIME;
 
-/// Fades the motion that was released longest ago, of all strings, within fade_s. False if there is none.
+/// Quality level of string `string` (index): 0 is full quality. Threads: one at a time per state;
+/// realtime-safe.
+std::size_t quality_level(const InstrumentState& state, std::size_t string) JAWARI_REALTIME;
+
+/// Fades the voice that was released longest ago, of all strings, within fade_s. Returns false if no
+/// released voice sounds. Threads: one at a time per state; realtime-safe.
 bool fade_oldest_released(InstrumentState& state) JAWARI_REALTIME;
 
 }  // namespace jawari

@@ -1,4 +1,4 @@
-// What an output frame costs, known before it is rendered: for hosts that refuse or lower the quality in
+// What an output frame costs, known before it is rendered: hosts can refuse a scene or lower its quality in
 // time.
 #pragma once
 
@@ -8,20 +8,22 @@
 namespace jawari {
 
 /// Multiply-adds of one output frame of one string, counted from the loops that do them; a lone addition or
-/// product counts as one. A machine's rate for them is its own: benchmarks/speed/adversarial.cpp measures it.
+/// product counts as one. benchmarks/speed/adversarial.cpp measures a machine's rate for them.
 struct FrameCost {
-    double flight = 0;  ///< free flight without a look at the obstacles
-    /// All contacts pressed on at every step, the same contacts active throughout: a string that lies on its
-    /// frets.
+    double flight = 0;  ///< multiply-adds of a frame of free flight without a test of the gaps
+    /// Multiply-adds of a frame in which all contacts are pressed on at every step, the same contacts active
+    /// throughout: a string that lies on its frets.
     double permanent_contact = 0;
-    /// No frame can cost more: every contact is found near in a round of its own, every solve runs into its
-    /// bound.
+    /// Multiply-adds that no frame exceeds: every contact is found near in a round of its own, every solve
+    /// runs into its bound.
     double bound = 0;
 };
 
+/// Cost of one output frame of one string. Threads: any; realtime-safe.
 FrameCost frame_cost(const StringModel& model) JAWARI_REALTIME;
 
-/// Sum over strings of FrameCost::permanent_contact.
+/// Sum of FrameCost::permanent_contact over the scene's strings [multiply-adds per output frame]. Threads:
+/// any; realtime-safe.
 double worst_frame_cost(const SceneModel& model) JAWARI_REALTIME;
 
 }  // namespace jawari

@@ -14,15 +14,17 @@ struct Modes {
     std::vector<double> sigma;  ///< decay rate [1/s], >= 0
 };
 
-/// Modes from physics (DESIGN of the laws: see InharmonicityLaw, ValetteLoss, DecayTimePoints) or from
-/// tables. Precondition: the description has been validated (compile() does so).
+/// Modes from the string's physics (InharmonicityLaw, ValetteLoss, DecayTimePoints) or from its tables.
+/// Precondition: compile() accepts the description. Threads: any. Allocates.
 Modes modes_of(const StringDescription& string);
 
-/// phi_k(x) = sqrt(2/L) sin(k pi x / L) [m^(-1/2)], k from 1; the argument is reduced before the sine, error
-/// <= 4 ulp of sqrt(2/L) for every k up to limits::modes.
+/// Mode shape phi_k(x) = sqrt(2/L) sin(k pi x / L) [m^(-1/2)]. `k`: from 1; `x`: 0 to L [m]; `length_m`: L,
+/// above 0 [m]. The argument is reduced before the sine; the error is at most 4 ulp of sqrt(2/L) for every k
+/// up to limits::modes. Threads: any; realtime-safe.
 double mode_shape(std::size_t k, double x, double length_m);
 
-/// q_k of a triangle of height h at x_p: h L^3 phi_k(x_p) / (pi^2 k^2 x_p (L - x_p)).
+/// Modal coordinate q_k [m^(3/2)] of a triangle of height h at x_p: h L^3 phi_k(x_p) / (pi^2 k^2 x_p (L -
+/// x_p)). `k`: from 1; `length_m`: L, above 0 [m]. Threads: any; realtime-safe.
 double pluck_coordinate(std::size_t k, const Pluck& pluck, double length_m);
 
 }  // namespace jawari

@@ -1,19 +1,22 @@
-// What rendering may skip. Every choice gives the numbers of uniform stepping to rounding; they exist to be
-// measured apart.
+// What rendering may skip. Each option can be switched off to measure its benefit; results always agree with
+// uniform stepping up to rounding.
 #pragma once
 
 namespace jawari {
 
+/// Which shortcuts rendering takes. The exact scheme has them; the theta scheme steps uniformly.
 struct Skipping {
-    bool flight = true;       ///< free frames in one 2x2 matrix per mode instead of step by step
-    bool certificate = true;  ///< contacts that provably stay open in a frame are not evaluated
-    bool near = true;         ///< frames with a contact that may close evaluate only such contacts
-    bool lazy =
-        true;  ///< modes below lazy_threshold of the strongest leave the sums until an impulse or a force
-    bool sleep = true;  ///< strings below sleep_threshold of their strongest state cost nothing
+    bool flight = true;       ///< cross free frames with one 2x2 matrix per mode instead of step by step
+    bool certificate = true;  ///< do not evaluate contacts that provably stay open in a frame
+    bool near = true;         ///< in frames with a contact that may close, evaluate only such contacts
+    /// Leave modes below lazy_threshold of the strongest out of the sums until an impulse or a force comes.
+    bool lazy = true;
+    bool sleep = true;  ///< spend nothing on strings below sleep_threshold of their strongest state
 };
 
+/// Every shortcut.
 inline constexpr Skipping skip_all{};
+/// Uniform stepping with all contacts.
 inline constexpr Skipping skip_nothing{false, false, false, false, false};
 
 /// A mode leaves the sums when both its displacement and its velocity bound are below this share of the

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "instrument/voice/bend.h"
 #include "instrument/voice/body.h"
 #include "instrument/voice/pickups.h"
+#include "jawari/instrument/compile.h"
 #include "jawari/instrument/model.h"
 #include "jawari/scene/compile.h"
 #include "jawari/scene/energy.h"
@@ -216,7 +218,8 @@ std::vector<double> fade_shape(double output_rate_hz) {
     const std::uint64_t frames = frames_of(fade_s, output_rate_hz);
     std::vector<double> shape;
     for (std::uint64_t i = 1; i <= frames; ++i)
-        shape.push_back(0.5 + 0.5 * std::cos(std::acos(-1.0) * double(i) / double(frames)));
+        shape.push_back(
+            0.5 + 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(frames)));
     return shape;
 }
 

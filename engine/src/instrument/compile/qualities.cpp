@@ -3,6 +3,8 @@
 #include <string>
 #include <utility>
 
+#include "jawari/instrument/compile.h"
+
 namespace jawari {
 namespace {
 
@@ -15,12 +17,12 @@ bool have_same_contacts(const InstrumentStringModel& a, const InstrumentStringMo
 
 }  // namespace
 
-std::optional<Failure> add_rungs(InstrumentModel& model, const InstrumentDescription& instrument,
-                                 std::span<const QualityDescription> lower) {
+std::optional<Failure> add_qualities(InstrumentModel& model, const InstrumentDescription& instrument,
+                                     std::span<const QualityDescription> lower) {
     for (const QualityDescription& quality : lower) {
-        InstrumentDescription rung = instrument;
-        rung.quality = quality;
-        auto compiled = compile_instrument(rung, model.output_rate_hz);
+        InstrumentDescription lowered = instrument;
+        lowered.quality = quality;
+        auto compiled = compile_instrument(lowered, model.output_rate_hz);
         if (!compiled) return compiled.failure();
         for (std::size_t s = 0; s < model.strings.size(); ++s) {
             if (!have_same_contacts(model.strings[s], compiled.value().strings[s]))

@@ -9,10 +9,6 @@
 namespace jawari {
 namespace {
 
-const ChannelState& channel_of(const InstrumentState& state, int channel) {
-    return state.channels[static_cast<std::size_t>(channel)];
-}
-
 double vibrato(const InstrumentModel& model, const InstrumentState& state, const ChannelState& channel) {
     const double depth = parameter_of(channel, ParameterId::VibratoDepth);
     if (depth == 0) return 0;

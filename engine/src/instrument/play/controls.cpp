@@ -15,10 +15,6 @@ namespace {
 /// A bend that is this close to its target arrives [semitones].
 constexpr double close_enough = 1e-3;
 
-const ChannelState& channel_of(const InstrumentState& state, int channel) {
-    return state.channels[static_cast<std::size_t>(channel)];
-}
-
 void follow_bend(const InstrumentModel& model, InstrumentState& state, std::size_t s, Voice& voice) {
     const StoppedStringModel& stopped = string_of(model, state, s).stopped[voice.fret];
     const double wanted = bend_target(model, state, s);

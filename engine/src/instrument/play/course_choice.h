@@ -1,4 +1,4 @@
-// Which course plays a note. The rules are those of instrument_render.h.
+// Which course plays a note. The rules are those of render_instrument().
 #pragma once
 
 #include <cstddef>

@@ -17,10 +17,9 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 /// What the soft pedal takes from velocity and hardness when it is fully down.
 constexpr double soft_velocity = 0.4;
 constexpr double soft_hardness = 0.5;
-
-ChannelState& channel_of(InstrumentState& state, int channel) {
-    return state.channels[static_cast<std::size_t>(channel)];
-}
+/// Octaves of hardness over the whole travel of a channel's timbre: as many as ParameterId::PluckHardness
+/// has.
+constexpr double timbre_octaves = 4;
 
 // ---------------------------------------------------------------------------------------------- strokes
 
@@ -46,7 +45,7 @@ Stroke stroke_of(const InstrumentModel& model, const ChannelState& channel, std:
     const double curved = std::pow(note_velocity, parameter_of(channel, ParameterId::VelocityCurve));
     stroke.velocity = curved * (1 - soft_velocity * channel.soft);
     stroke.hardness = parameter_of(channel, ParameterId::PluckHardness) *
-                      std::exp2(4 * (channel.timbre - 0.5)) * (1 - soft_hardness * channel.soft);
+                      std::exp2(timbre_octaves * (channel.timbre - 0.5)) * (1 - soft_hardness * channel.soft);
     return stroke;
 }
 
@@ -175,7 +174,8 @@ void set_sustain(const InstrumentModel& model, InstrumentState& state, int chann
     if (down) return;
     for (std::size_t c = 0; c < state.courses.size(); ++c) {
         const HeldNote& held = state.courses[c].held;
-        if (held.active && !held.key_down && held.channel == channel) release_course(model, state, c, 0.5);
+        if (held.active && !held.key_down && held.channel == channel)
+            release_course(model, state, c, neutral_release_velocity);
     }
 }
 
@@ -184,7 +184,7 @@ void all_notes_off(const InstrumentModel& model, InstrumentState& state, int cha
         CourseState& course = state.courses[c];
         if (!course.held.active || !course.held.key_down || course.held.channel != channel) continue;
         course.below_count = 0;
-        lift_key(model, state, c, 0.5);
+        lift_key(model, state, c, neutral_release_velocity);
     }
 }
 
@@ -266,7 +266,7 @@ void apply_event(const InstrumentModel& model, InstrumentState& state,
             if (event.value > 0) {
                 note_on(model, state, event);
             } else {
-                note_off(model, state, event, 0.5);
+                note_off(model, state, event, neutral_release_velocity);
             }
             break;
         case InstrumentEventType::NoteOff:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/assert.h"
 #include "instrument/play/control_targets.h"
 #include "instrument/play/controls.h"
 #include "instrument/play/events.h"
@@ -13,7 +14,7 @@
 namespace jawari {
 namespace {
 
-/// Frames that are computed in one go, string by string: a motion's numbers then stay close at hand.
+/// Frames that are computed in one go, string by string: a voice's numbers then stay in the cache.
 constexpr std::size_t longest_run = control_frames;
 
 /// The signals of a run.
@@ -52,8 +53,8 @@ void advance_string(const InstrumentModel& model, InstrumentState& state, std::s
     }
 }
 
-/// Frames until anything but the passing of time happens to a motion, at most `frames`. A stroke that waits
-/// is looked after frame by frame.
+/// Frames until anything but the passing of time happens to a voice, at most `frames`. While a stroke waits,
+/// frames are computed one by one.
 std::size_t run_length(const InstrumentState& state, std::size_t frames) {
     if (state.waiting) return 1;
     const auto to_control = static_cast<std::size_t>(control_frames - state.frame % control_frames);
@@ -89,11 +90,20 @@ void advance(const InstrumentModel& model, InstrumentState& state, std::span<dou
     state.frame += run.frames;
 }
 
+/// What callers of rendering promise.
+void check(const InstrumentModel& model, const InstrumentState& state,
+           [[maybe_unused]] std::span<const InstrumentEvent> events) {
+    JAWARI_ASSERT(state.strings.size() == model.strings.size());
+    JAWARI_ASSERT(std::is_sorted(events.begin(), events.end(),
+                                 [](const auto& a, const auto& b) { return a.frame < b.frame; }));
+}
+
 /// Calls sink(n, left, right) for every frame.
 template <class Sink>
 void render_frames(const InstrumentModel& model, InstrumentState& state,
                    std::span<const InstrumentEvent> events, std::span<double* const> strings,
                    std::size_t frames, Sink sink) {
+    check(model, state, events);
     const double smoothing = follow_share(model, 1, gain_follow_s);
     std::size_t next = 0;
     Run run;
@@ -115,6 +125,8 @@ void render_frames(const InstrumentModel& model, InstrumentState& state,
 void render_instrument(const InstrumentModel& model, InstrumentState& state,
                        std::span<const InstrumentEvent> events, const InstrumentOutput& output,
                        std::size_t frames) JAWARI_REALTIME {
+    JAWARI_ASSERT(output.strings.empty() || output.strings.size() == model.strings.size());
+    JAWARI_ASSERT(frames == 0 || (output.left != nullptr && output.right != nullptr));
     render_frames(model, state, events, output.strings, frames,
                   [&](std::size_t n, double left, double right) {
                       output.left[n] = left;
@@ -129,10 +141,12 @@ void render_instrument(const InstrumentModel& model, InstrumentState& state,
                   [&](std::size_t n, double left, double right) { output[n] = (left + right) / 2; });
 }
 
-double string_energy(const InstrumentModel& model, InstrumentState& state, std::size_t s) JAWARI_REALTIME {
+double string_energy(const InstrumentModel& model, InstrumentState& state,
+                     std::size_t string) JAWARI_REALTIME {
+    JAWARI_ASSERT(string < state.strings.size());
     double sum = 0;
-    for (Voice& voice : state.strings[s].voices) {
-        if (voice.phase != VoicePhase::Idle) sum += voice_energy(string_of(model, state, s), voice);
+    for (Voice& voice : state.strings[string].voices) {
+        if (voice.phase != VoicePhase::Idle) sum += voice_energy(string_of(model, state, string), voice);
     }
     return sum;
 }

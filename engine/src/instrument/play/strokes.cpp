@@ -9,13 +9,10 @@
 #include "instrument/voice/hands.h"
 #include "instrument/voice/legato_transfer.h"
 #include "instrument/voice/voice.h"
+#include "jawari/instrument/events.h"
 
 namespace jawari {
 namespace {
-
-double parameter(const InstrumentState& state, int channel, ParameterId id) {
-    return parameter_of(state.channels[static_cast<std::size_t>(channel)], id);
-}
 
 std::size_t idle_voice(const InstrumentStringState& string) {
     for (std::size_t v = 0; v < string.voices.size(); ++v) {
@@ -24,7 +21,7 @@ std::size_t idle_voice(const InstrumentStringState& string) {
     return no_voice;
 }
 
-/// A motion that goes on at the fret.
+/// A voice that goes on at the fret.
 std::size_t voice_at(const InstrumentStringState& string, std::size_t fret) {
     for (std::size_t v = 0; v < string.voices.size(); ++v) {
         const Voice& voice = string.voices[v];
@@ -44,12 +41,12 @@ void damp_sounding(const InstrumentModel& model, InstrumentState& state, std::si
     voice.phase = VoicePhase::Damped;
     voice.slide.active = false;
     if (!with_hand) return;
-    const double time = parameter(state, voice.channel, ParameterId::ReleaseTime);
+    const double time = parameter_of(state, voice.channel, ParameterId::ReleaseTime);
     lay_damping_hand(model, string_of(model, state, s), voice, release_velocity, time);
 }
 
-/// A string has one shape at a time: what it did before a note fades as the note begins, as under the finger
-/// or plectrum that takes hold of it.
+/// A string does one thing at a time: its earlier voices fade as a note begins, as under the finger or
+/// plectrum that takes hold of the string.
 void fade_damped(InstrumentStringState& string, InstrumentCounters& counters) {
     if (string.voices.size() == 1) return;
     for (Voice& voice : string.voices) {
@@ -62,7 +59,7 @@ void fade_damped(InstrumentStringState& string, InstrumentCounters& counters) {
 /// What the stopping hand and the palm do at the beginning of a note.
 void lay_hands(const InstrumentModel& model, InstrumentState& state, std::size_t s, Voice& voice) {
     const InstrumentStringModel& string = string_of(model, state, s);
-    const auto value = [&](ParameterId id) { return parameter(state, voice.channel, id); };
+    const auto value = [&](ParameterId id) { return parameter_of(state, voice.channel, id); };
     lift_touch(voice.touches, TouchSlot::Left);
     const double dead = value(ParameterId::DeadNote);
     const auto harmonic = static_cast<int>(value(ParameterId::Harmonic));
@@ -74,7 +71,7 @@ void lay_hands(const InstrumentModel& model, InstrumentState& state, std::size_t
     press_palm(model, string, voice, value(ParameterId::PalmMute), value(ParameterId::PalmPosition));
 }
 
-/// The motion has the note from now on.
+/// The voice has the note from now on.
 Voice& take_note(const InstrumentModel& model, InstrumentState& state, std::size_t s, std::size_t v,
                  int channel) {
     InstrumentStringState& string = state.strings[s];
@@ -87,24 +84,36 @@ Voice& take_note(const InstrumentModel& model, InstrumentState& state, std::size
     return voice;
 }
 
-void start_from_rest(const InstrumentModel& model, InstrumentState& state, std::size_t s, std::size_t v,
-                     const Stroke& stroke) {
+/// A voice begins at rest at the stroke's fret.
+Voice& wake_voice(const InstrumentModel& model, InstrumentState& state, std::size_t s, std::size_t v,
+                  const Stroke& stroke) {
     InstrumentStringState& string = state.strings[s];
     start_voice(model, string_of(model, state, s), string.voices[v], stroke.fret, stroke.channel,
-                parameter(state, stroke.channel, ParameterId::Action));
+                parameter_of(state, stroke.channel, ParameterId::Action));
     string.busy += 1;
     state.busy = true;
+    return string.voices[v];
+}
+
+/// The voice has at once the bend that its note and channel ask for.
+void bend_at_once(const InstrumentModel& model, InstrumentState& state, std::size_t s, Voice& voice) {
+    voice.bend.target = bend_target(model, state, s);
+    set_bend(string_of(model, state, s).stopped[voice.fret], voice, voice.bend.target, state.work);
+}
+
+void start_from_rest(const InstrumentModel& model, InstrumentState& state, std::size_t s, std::size_t v,
+                     const Stroke& stroke) {
+    wake_voice(model, state, s, v, stroke);
     Voice& voice = take_note(model, state, s, v, stroke.channel);
     voice.gains = voice.targets;
-    voice.bend.target = bend_target(model, state, s);
-    set_bend(string_of(model, state, s).stopped[stroke.fret], voice, voice.bend.target, state.work);
+    bend_at_once(model, state, s, voice);
 }
 
 void excite(const InstrumentModel& model, InstrumentState& state, std::size_t s, Voice& voice,
             const Stroke& stroke) {
     lay_hands(model, state, s, voice);
     strike_voice(model, string_of(model, state, s), voice, stroke,
-                 parameter(state, stroke.channel, ParameterId::PluckPosition));
+                 parameter_of(state, stroke.channel, ParameterId::PluckPosition));
     state.counters.notes += 1;
 }
 
@@ -115,7 +124,7 @@ void begin_stroke(const InstrumentModel& model, InstrumentState& state, std::siz
     fade_damped(state.strings[s], state.counters);
 }
 
-void wait_for_motion(InstrumentState& state, std::size_t s, const Stroke& stroke) {
+void wait_for_voice(InstrumentState& state, std::size_t s, const Stroke& stroke) {
     InstrumentStringState& string = state.strings[s];
     fade_damped(string, state.counters);
     if (string.pending.active) state.counters.ignored_notes += 1;
@@ -124,7 +133,7 @@ void wait_for_motion(InstrumentState& state, std::size_t s, const Stroke& stroke
     state.counters.delayed_notes += 1;
 }
 
-/// The old motion fades while the new one, which has its shape, rises.
+/// The old voice fades while the new one, which has its shape, rises.
 Voice& cross_over(const InstrumentModel& model, InstrumentState& state, std::size_t s, std::size_t v,
                   const Stroke& stroke) {
     InstrumentStringState& string = state.strings[s];
@@ -132,26 +141,21 @@ Voice& cross_over(const InstrumentModel& model, InstrumentState& state, std::siz
     const VoiceGains gains = old.gains;
     old.phase = VoicePhase::Damped;
     old.slide.active = false;
-    start_voice(model, string_of(model, state, s), string.voices[v], stroke.fret, stroke.channel,
-                parameter(state, stroke.channel, ParameterId::Action));
-    string.busy += 1;
-    state.busy = true;
-    Voice& voice = string.voices[v];
+    Voice& voice = wake_voice(model, state, s, v, stroke);
     carry_over(string_of(model, state, s), old, voice, state.work);
     fade_voice(old);
     voice.rise_frame = 0;
     voice.age = 1;
     take_note(model, state, s, v, stroke.channel);
     voice.gains = gains;
-    voice.bend.target = bend_target(model, state, s);
-    set_bend(string_of(model, state, s).stopped[stroke.fret], voice, voice.bend.target, state.work);
+    bend_at_once(model, state, s, voice);
     lay_hands(model, state, s, voice);
     state.counters.legato_notes += 1;
     return voice;
 }
 
 bool begin_slide(const InstrumentModel& model, InstrumentState& state, std::size_t s, const Stroke& stroke) {
-    const double time_s = parameter(state, stroke.channel, ParameterId::SlideTime);
+    const double time_s = parameter_of(state, stroke.channel, ParameterId::SlideTime);
     if (!(time_s > 0)) return false;
     InstrumentStringState& string = state.strings[s];
     const InstrumentStringModel& strings = string_of(model, state, s);
@@ -174,16 +178,16 @@ void stroke_string(const InstrumentModel& model, InstrumentState& state, std::si
     InstrumentStringState& string = state.strings[s];
     const std::size_t same = voice_at(string, stroke.fret);
     if (same != no_voice) {
-        if (string.sounding != same) damp_sounding(model, state, s, true, 0.5);
+        if (string.sounding != same) damp_sounding(model, state, s, true, neutral_release_velocity);
         Voice& voice = take_note(model, state, s, same, stroke.channel);
         lift_damping_hand(voice);
         excite(model, state, s, voice, stroke);
         return;
     }
-    damp_sounding(model, state, s, true, 0.5);
+    damp_sounding(model, state, s, true, neutral_release_velocity);
     const std::size_t v = idle_voice(string);
     if (v == no_voice) {
-        wait_for_motion(state, s, stroke);
+        wait_for_voice(state, s, stroke);
     } else {
         begin_stroke(model, state, s, v, stroke);
     }
@@ -204,7 +208,7 @@ void continue_string(const InstrumentModel& model, InstrumentState& state, std::
     lighter.velocity *= model.hand.legato_level;
     if (lighter.velocity > 0) {
         strike_voice(model, string_of(model, state, s), voice, lighter,
-                     parameter(state, stroke.channel, ParameterId::PluckPosition));
+                     parameter_of(state, stroke.channel, ParameterId::PluckPosition));
         lift_touch(voice.touches, TouchSlot::Finger);  // nothing lies on the string before
     }
     fade_damped(string, state.counters);
@@ -246,7 +250,7 @@ void silence_string(const InstrumentModel& model, InstrumentState& state, std::s
         if (voice.phase != VoicePhase::Idle && voice.channel == channel) fade_voice(voice);
     }
     if (string.sounding != no_voice && string.voices[string.sounding].channel == channel)
-        damp_sounding(model, state, s, false, 0.5);
+        damp_sounding(model, state, s, false, neutral_release_velocity);
 }
 
 void start_pending_strokes(const InstrumentModel& model, InstrumentState& state) JAWARI_REALTIME {

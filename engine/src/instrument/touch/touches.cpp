@@ -42,7 +42,7 @@ void set_reach(const StringModel& model, Touch& touch) {
 }
 
 // Of the arrays in the structures below only the first entries, one per force that acts, are ever set or
-// read: this runs for every motion in every frame, and clearing them takes a tenth of its time.
+// read: this runs for every voice in every frame, and clearing them takes a tenth of its time.
 
 /// The touches and, if it acts, the exciter.
 struct ActiveForces {  // NOLINT(cppcoreguidelines-pro-type-member-init)

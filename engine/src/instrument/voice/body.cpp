@@ -13,6 +13,12 @@ namespace {
 /// denormal.
 constexpr double still = 1e-12;
 
+/// Modes above this share of the output rate are left out: it is just below the Nyquist rate, half the output
+/// rate, from which on they would alias.
+constexpr double highest_audible = 0.48;
+/// No mode is damped beyond this share of its frequency: the free motion below is that of an oscillator.
+constexpr double strongest_damping = 0.9;
+
 struct Oscillator {
     double omega = 0;
     double sigma = 0;
@@ -41,6 +47,13 @@ void set_mode(BodyModel& body, std::size_t i, const Oscillator& mode, double T) 
     body.v_ramp[i] = v0 - (body.vy[i] * y0 + body.vv[i] * v0);
 }
 
+void silence(BodyState& state) {
+    std::fill(state.y.begin(), state.y.end(), 0.0);
+    std::fill(state.v.begin(), state.v.end(), 0.0);
+    state.force_N = 0;
+    state.ringing = false;
+}
+
 }  // namespace
 
 BodyModel body_model(const InstrumentDescription& instrument, double output_rate_hz) {
@@ -53,9 +66,9 @@ BodyModel body_model(const InstrumentDescription& instrument, double output_rate
     }
     for (std::size_t i = 0; i < body.count; ++i) {
         const BodyModeDescription& mode = instrument.body[i];
-        if (mode.frequency_hz >= 0.48 * output_rate_hz) continue;  // not heard at this rate
+        if (mode.frequency_hz >= highest_audible * output_rate_hz) continue;
         const double omega = 2 * std::numbers::pi * mode.frequency_hz;
-        const double sigma = std::min(std::log(1000.0) / mode.t60_s, 0.9 * omega);
+        const double sigma = std::min(std::log(1000.0) / mode.t60_s, strongest_damping * omega);
         set_mode(body, i, {omega, sigma}, 1 / output_rate_hz);
         body.gain_left[i] = mode.gain_left;
         body.gain_right[i] = mode.gain_right;
@@ -70,6 +83,11 @@ BodyState make_body_state(const BodyModel& body) {
     return state;
 }
 
+void reset_body(BodyState& state) JAWARI_REALTIME {
+    silence(state);
+    state.nonfinite_resets = 0;
+}
+
 StereoSample advance_body(const BodyModel& body, BodyState& state, double force_N) JAWARI_REALTIME {
     const double before = state.force_N;
     if (!state.ringing && force_N == 0 && before == 0) return {};
@@ -80,10 +98,7 @@ StereoSample advance_body(const BodyModel& body, BodyState& state, double force_
     state.ringing = true;
     const bool lost = !std::isfinite(sample.left + sample.right);
     if (lost || (frame.largest < still && force_N == 0)) {
-        std::fill(state.y.begin(), state.y.end(), 0.0);
-        std::fill(state.v.begin(), state.v.end(), 0.0);
-        state.force_N = 0;
-        state.ringing = false;
+        silence(state);
         if (lost) {
             state.nonfinite_resets += 1;
             return {};

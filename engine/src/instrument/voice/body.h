@@ -11,6 +11,9 @@ BodyModel body_model(const InstrumentDescription& instrument, double output_rate
 
 BodyState make_body_state(const BodyModel& body);
 
+/// The body is still, and nothing has been counted.
+void reset_body(BodyState& state) JAWARI_REALTIME;
+
 struct StereoSample {
     double left = 0;
     double right = 0;

@@ -19,6 +19,8 @@ constexpr double hand_ease_s = 0.01;
 constexpr double left_ease_s = 0.003;
 /// How far the damping hand sweeps to either side: share of the speaking length.
 constexpr double hand_sweep = 0.08;
+/// Hands and exciters keep this share of the speaking length from its ends, where no force moves the string.
+constexpr double end_share = 0.01;
 
 }  // namespace
 
@@ -33,7 +35,7 @@ double damping_for(const StoppedStringModel& stopped, double x, double t60_s) JA
 double place_on(const StoppedStringModel& stopped, const StringPlace& place, double factor) JAWARI_REALTIME {
     const double length_m = stopped.string.length_m;
     const double distance =
-        std::clamp(factor * from_bridge(place, length_m), 0.01 * length_m, 0.99 * length_m);
+        std::clamp(factor * from_bridge(place, length_m), end_share * length_m, (1 - end_share) * length_m);
     return length_m - distance;
 }
 

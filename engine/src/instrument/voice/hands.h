@@ -1,4 +1,4 @@
-// The damping hand, the palm, and the hand that stops strings: touches of a motion, in terms of decay times.
+// The damping hand, the palm, and the hand that stops strings: touches of a voice, in terms of decay times.
 #pragma once
 
 #include "jawari/instrument/model.h"

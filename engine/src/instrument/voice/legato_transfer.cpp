@@ -113,7 +113,7 @@ void carry_over(const InstrumentStringModel& string, const Voice& from, Voice& t
                           std::min(stop.string.mode_count, transfer_modes)};
     const double scale = std::sqrt(2 / source.length_m);
     const double before = energy(stop.string, to.string);
-    // The backward velocity of the new motion is made of its shape and true velocity, each projected.
+    // The backward velocity of the new voice is made of its shape and true velocity, each projected.
     Motion motion;
     for (std::size_t j = 0; j < lengths.from_modes; ++j) {
         const double q = from.string.displacement[j] - source.rest_displacement[j];

@@ -7,7 +7,7 @@
 
 namespace jawari {
 
-/// Modes of the old and of the new length that take part: beyond them the new motion starts at rest.
+/// Modes of the old and of the new length that take part: beyond them the new voice starts at rest.
 inline constexpr std::size_t transfer_modes = 256;
 
 /// Gives `to`, which is at rest at its fret, the shape and true velocity of `from`, seen from the bridge. At

@@ -1,4 +1,4 @@
-// From a motion's modes to the signals of pickups and the force on the bridge.
+// From a voice's modes to the signals of pickups and the force on the bridge.
 #pragma once
 
 #include "jawari/detail/string_state.h"

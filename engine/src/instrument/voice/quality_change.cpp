@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.h"
 #include "instrument/model/played_string.h"
 #include "instrument/touch/touches.h"
 #include "instrument/voice/bend.h"
@@ -11,7 +12,7 @@
 namespace jawari {
 namespace {
 
-/// v = backward_q q + backward_u u, with q from rest, at either rung. Overdamped modes keep v.
+/// v = backward_q q + backward_u u, with q from rest, at either quality level. Overdamped modes keep v.
 void convert_modes(const StringModel& source, const double* backward_q, const double* backward_u,
                    const StoppedStringModel& to, StringState& string) {
     const StringModel& target = to.string;
@@ -40,23 +41,24 @@ void change_voice(const InstrumentStringModel& from, const InstrumentStringModel
                   bent ? voice.bend.backward_u.data() : left.backward_u.data(), reached, voice.string);
     const std::size_t kept = std::min(source.mode_count, reached.string.mode_count);
     forget_bend(voice);
-    PlayerWork of_bend;  // the tension does not change: what it takes belongs to the rung
+    PlayerWork of_bend;  // the tension does not change: what it takes belongs to the change of quality
     if (bent) set_bend(reached, voice, semitones, of_bend);
     const StringModel& now = voice_model(to, voice);
     notice_change(now, voice.string);
     rewrite_touches(now, voice.touches, kept);
     const double change_J = energy(now, voice.string) - before;
-    if (std::isfinite(change_J)) work.rungs_J += change_J;
+    if (std::isfinite(change_J)) work.quality_changes_J += change_J;
 }
 
 }  // namespace
 
-void change_rung(const InstrumentModel& model, InstrumentState& state, std::size_t s,
-                 std::size_t rung) JAWARI_REALTIME {
+void change_quality(const InstrumentModel& model, InstrumentState& state, std::size_t s,
+                    std::size_t quality_level) JAWARI_REALTIME {
+    JAWARI_ASSERT(s < state.strings.size());
     InstrumentStringState& string = state.strings[s];
-    if (string.rung == rung || rung > model.lower.size()) return;
+    if (string.quality_level == quality_level || quality_level > model.lower.size()) return;
     const InstrumentStringModel& from = string_of(model, state, s);
-    string.rung = rung;
+    string.quality_level = quality_level;
     const InstrumentStringModel& to = string_of(model, state, s);
     for (Voice& voice : string.voices) {
         if (voice.phase != VoicePhase::Idle) change_voice(from, to, voice, state.work);

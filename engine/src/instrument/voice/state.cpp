@@ -2,16 +2,18 @@
 
 #include <algorithm>
 
+#include "base/assert.h"
 #include "instrument/voice/body.h"
 #include "instrument/voice/voice.h"
+#include "jawari/instrument/qualities.h"
 
 namespace jawari {
 namespace {
 
-/// Of string s at any rung.
+/// The largest of string s over its quality levels.
 StringSizes largest_sizes(const InstrumentModel& model, std::size_t s) {
     StringSizes sizes = model.strings[s].sizes;
-    for (const auto& rung : model.lower) sizes = larger(sizes, rung[s].sizes);
+    for (const auto& level : model.lower) sizes = larger(sizes, level[s].sizes);
     return sizes;
 }
 
@@ -32,6 +34,16 @@ ChannelState neutral_channel() {
 
 }  // namespace
 
+InstrumentCounters& operator+=(InstrumentCounters& sum, const InstrumentCounters& more) noexcept {
+    sum.notes += more.notes;
+    sum.ignored_notes += more.ignored_notes;
+    sum.stolen_notes += more.stolen_notes;
+    sum.delayed_notes += more.delayed_notes;
+    sum.faded_voices += more.faded_voices;
+    sum.legato_notes += more.legato_notes;
+    return sum;
+}
+
 InstrumentState make_instrument_state(const InstrumentModel& model) {
     InstrumentState state;
     state.play = model.play;
@@ -42,18 +54,95 @@ InstrumentState make_instrument_state(const InstrumentModel& model) {
     return state;
 }
 
-Counters contact_counters(const InstrumentState& state) {
+void reset(const InstrumentModel& model, InstrumentState& state) JAWARI_REALTIME {
+    JAWARI_ASSERT(state.strings.size() == model.strings.size());
+    JAWARI_ASSERT(state.courses.size() == model.courses.size());
+    for (InstrumentStringState& string : state.strings) {
+        for (Voice& voice : string.voices) reset_voice(voice);
+        string.sounding = no_voice;
+        string.busy = 0;
+        string.pending = {};
+        string.quality_level = 0;
+    }
+    std::fill(state.courses.begin(), state.courses.end(), CourseState{});
+    state.channels.fill(neutral_channel());
+    reset_body(state.body);
+    state.play = model.play;
+    state.note_order = 0;
+    set_clock(state, 0);
+    state.waiting = false;
+    state.busy = false;
+    state.counters = {};
+    state.work = {};
+    state.finished = {};
+}
+
+void inherit_controls(const InstrumentState& from, InstrumentState& to) JAWARI_REALTIME {
+    to.channels = from.channels;
+}
+
+void set_play_mode(InstrumentState& state, PlayMode mode) JAWARI_REALTIME {
+    JAWARI_ASSERT(held_notes(state) == 0);
+    state.play = mode;
+}
+
+void set_clock(InstrumentState& state, std::uint64_t frame) JAWARI_REALTIME {
+    state.frame = frame;
+    state.strokes_until = frame;
+}
+
+bool is_held(const InstrumentModel& model, const InstrumentState& state, std::size_t string) JAWARI_REALTIME {
+    JAWARI_ASSERT(string < model.strings.size());
+    return state.courses[model.strings[string].course].held.active;
+}
+
+std::size_t held_notes(const InstrumentState& state) JAWARI_REALTIME {
+    std::size_t held = 0;
+    for (const CourseState& course : state.courses) held += course.held.active ? 1 : 0;
+    return held;
+}
+
+std::size_t sounding_voices(const InstrumentState& state) JAWARI_REALTIME {
+    std::size_t voices = 0;
+    for (const InstrumentStringState& string : state.strings) voices += string.busy;
+    return voices;
+}
+
+std::size_t sounding_voices(const InstrumentState& state, std::size_t string) JAWARI_REALTIME {
+    JAWARI_ASSERT(string < state.strings.size());
+    return state.strings[string].busy;
+}
+
+std::size_t quality_level(const InstrumentState& state, std::size_t string) JAWARI_REALTIME {
+    JAWARI_ASSERT(string < state.strings.size());
+    return state.strings[string].quality_level;
+}
+
+std::uint64_t nonfinite_resets(const InstrumentState& state, std::size_t string) JAWARI_REALTIME {
+    JAWARI_ASSERT(string < state.strings.size());
+    std::uint64_t resets = 0;
+    for (const Voice& voice : state.strings[string].voices) {
+        if (voice.phase != VoicePhase::Idle) resets += voice.string.counters.nonfinite_resets;
+    }
+    return resets;
+}
+
+std::uint64_t finished_nonfinite_resets(const InstrumentState& state) JAWARI_REALTIME {
+    return state.finished.nonfinite_resets + state.body.nonfinite_resets;
+}
+
+Counters contact_counters(const InstrumentState& state) JAWARI_REALTIME {
     Counters sum = state.finished;
     for (const InstrumentStringState& string : state.strings) {
         for (const Voice& voice : string.voices) {
-            if (voice.phase != VoicePhase::Idle) accumulate(voice.string.counters, sum);
+            if (voice.phase != VoicePhase::Idle) sum += voice.string.counters;
         }
     }
     return sum;
 }
 
-bool at_rest(const InstrumentState& state) noexcept {
-    return !state.body.ringing &&
+bool at_rest(const InstrumentState& state) JAWARI_REALTIME {
+    return !state.busy && !state.body.ringing &&
            std::all_of(state.strings.begin(), state.strings.end(), [](const InstrumentStringState& string) {
                return !string.pending.active &&
                       std::all_of(string.voices.begin(), string.voices.end(),

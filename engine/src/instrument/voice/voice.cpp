@@ -15,13 +15,13 @@
 namespace jawari {
 namespace {
 
-/// Frames between two looks at a motion's energy.
+/// Output frames between two looks at a voice's energy.
 constexpr std::uint64_t rest_check_frames = 64;
 /// A finger that comes down on a ringing string has at least this share of its wave impedance.
 constexpr double finger_share = 0.5;
 
 void finish(Voice& voice, InstrumentState& state) {
-    accumulate(voice.string.counters, state.finished);
+    state.finished += voice.string.counters;
     voice.string.counters = {};
     voice.phase = VoicePhase::Idle;
     voice.fading = false;
@@ -61,12 +61,15 @@ void follow_gains(Voice& voice, double smoothing) {
     follow(voice.targets.mix, smoothing, voice.gains.mix);
 }
 
+/// A negative `action` raises what the string clears up to this height, just below the rest line [m].
+constexpr double highest_lowered_m = -1e-5;
+
 void lower_obstacles(const StoppedStringModel& stopped, StringState& string, double action_m) {
     if (action_m == 0) return;
     for (const std::uint32_t c : stopped.action_contacts) {
-        // The string rests on what lifts it; only what it clears may move, and never above its rest line.
+        // The string rests on what lifts it; only what it clears may move, and never to its rest line.
         const double height = stopped.string.contact_height[c];
-        string.contact.height[c] = std::min(height - action_m, std::max(height, -1e-5));
+        string.contact.height[c] = std::min(height - action_m, std::max(height, highest_lowered_m));
         string.contact.height_before[c] = string.contact.height[c];
     }
     notice_change(stopped.string, string);
@@ -78,12 +81,31 @@ double force_at(const StoppedStringModel& stopped, double full_force_N, double d
     return full_force_N * described_x * (L - described_x) / (x * (L - x));
 }
 
-void strike_with(const FingerDescription& finger, const InstrumentModel& model,
-                 const InstrumentStringModel& string, Voice& voice, const Stroke& stroke, double x,
-                 double described_x) {
+/// A tangent's movement takes at least this many output frames: its force, which follows the movement's
+/// acceleration, is held over each of them.
+constexpr std::uint64_t shortest_tangent_frames = 4;
+
+/// A stroke on one voice.
+struct Strike {
+    const InstrumentModel& model;
+    const InstrumentStringModel& string;
+    Voice& voice;
+    const Stroke& stroke;
+    double x_m = 0;            ///< where, from the start of the speaking length; 0 for tangents
+    double described_x_m = 0;  ///< where the description has it
+};
+
+/// Factor of an exciter's times.
+double time_factor(const Strike& strike) {
+    const double exponent = strike.model.exciters[strike.stroke.exciter].time_exponent;
+    return std::pow(strike.stroke.velocity, -exponent) / strike.stroke.hardness;
+}
+
+void strike_with(const FingerDescription& finger, const Strike& strike) {
+    const auto& [model, string, voice, stroke, x, described_x] = strike;
     const ExciterDescription& exciter = model.exciters[stroke.exciter];
     const StoppedStringModel& stopped = string.stopped[voice.fret];
-    const double times = std::pow(stroke.velocity, -exciter.time_exponent) / stroke.hardness;
+    const double times = time_factor(strike);
     const double force = force_at(stopped, stopped.full_force_N[stroke.exciter], described_x, x) *
                          std::pow(stroke.velocity, finger.height_exponent);
     const std::uint64_t rise = frames_of(finger.rise_s * times, model.output_rate_hz);
@@ -100,22 +122,22 @@ void strike_with(const FingerDescription& finger, const InstrumentModel& model,
                .ease_frames = static_cast<double>(rise) / 2});
 }
 
-void strike_with(const HammerDescription& hammer, const InstrumentModel& model,
-                 const InstrumentStringModel& string, Voice& voice, const Stroke& stroke, double x, double) {
-    const double speed =
-        string.excitation * hammer.full_speed_m_per_s * std::pow(stroke.velocity, hammer.speed_exponent);
-    begin_hammer(voice_model(string, voice), voice.string, voice.touches.exciter, x,
-                 model.exciters[stroke.exciter].width_m, hammer, speed, stroke.hardness);
+void strike_with(const HammerDescription& hammer, const Strike& strike) {
+    const Stroke& stroke = strike.stroke;
+    Voice& voice = strike.voice;
+    const double speed = strike.string.excitation * hammer.full_speed_m_per_s *
+                         std::pow(stroke.velocity, hammer.speed_exponent);
+    begin_hammer(voice_model(strike.string, voice), voice.string, voice.touches.exciter, strike.x_m,
+                 strike.model.exciters[stroke.exciter].width_m, hammer, speed, stroke.hardness);
 }
 
-void strike_with(const TangentDescription& tangent, const InstrumentModel& model,
-                 const InstrumentStringModel& string, Voice& voice, const Stroke& stroke, double, double) {
-    const double times =
-        std::pow(stroke.velocity, -model.exciters[stroke.exciter].time_exponent) / stroke.hardness;
-    const double height =
-        string.excitation * tangent.full_height_m * std::pow(stroke.velocity, tangent.height_exponent);
-    begin_tangent(voice_model(string, voice), voice.touches.exciter, height,
-                  std::max<std::uint64_t>(4, frames_of(tangent.rise_s * times, model.output_rate_hz)));
+void strike_with(const TangentDescription& tangent, const Strike& strike) {
+    Voice& voice = strike.voice;
+    const double height = strike.string.excitation * tangent.full_height_m *
+                          std::pow(strike.stroke.velocity, tangent.height_exponent);
+    const std::uint64_t rise = frames_of(tangent.rise_s * time_factor(strike), strike.model.output_rate_hz);
+    begin_tangent(voice_model(strike.string, voice), voice.touches.exciter, height,
+                  std::max(shortest_tangent_frames, rise));
 }
 
 }  // namespace
@@ -126,6 +148,24 @@ Voice make_voice(const StringSizes& sizes) {
     voice.touches = make_touch_state(sizes.stride);
     voice.bend = make_bend_state(sizes);
     return voice;
+}
+
+void reset_voice(Voice& voice) JAWARI_REALTIME {
+    voice.phase = VoicePhase::Idle;
+    voice.fret = 0;
+    voice.channel = 0;
+    voice.string.counters = {};
+    lift_all_touches(voice.touches);
+    forget_bend(voice);
+    voice.bend.target = 0;
+    voice.slide = {};
+    voice.age = 0;
+    voice.fading = false;
+    voice.rests_on_obstacles = false;
+    voice.fade_frame = 0;
+    voice.rise_frame = 0;
+    voice.gains = {};
+    voice.targets = {};
 }
 
 void start_voice(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice,
@@ -154,14 +194,12 @@ void strike_voice(const InstrumentModel& model, const InstrumentStringModel& str
     const bool placed = place.share > 0 || place.from_bridge_m > 0;
     const double x = placed ? place_on(stopped, place, position_factor) : 0.0;
     const double described_x = placed ? place_on(stopped, place, 1) : 0.0;
+    const Strike strike{model, string, voice, stroke, x, described_x};
     // Not std::visit: it may throw.
     const auto& body = model.exciters[stroke.exciter].body;
-    if (const auto* finger = std::get_if<FingerDescription>(&body))
-        strike_with(*finger, model, string, voice, stroke, x, described_x);
-    if (const auto* hammer = std::get_if<HammerDescription>(&body))
-        strike_with(*hammer, model, string, voice, stroke, x, described_x);
-    if (const auto* tangent = std::get_if<TangentDescription>(&body))
-        strike_with(*tangent, model, string, voice, stroke, x, described_x);
+    if (const auto* finger = std::get_if<FingerDescription>(&body)) strike_with(*finger, strike);
+    if (const auto* hammer = std::get_if<HammerDescription>(&body)) strike_with(*hammer, strike);
+    if (const auto* tangent = std::get_if<TangentDescription>(&body)) strike_with(*tangent, strike);
     voice.touches.outdated = true;
 }
 
@@ -196,7 +234,7 @@ VoiceSignals advance_voice(const InstrumentModel& model, const InstrumentStringM
         signals.bridge_N = gain * voice.gains.body * bridge_force(stopped, voice.string);
     const bool finite = std::isfinite(signals.left + signals.right + signals.bridge_N);
     if (!finite || voice.string.counters.nonfinite_resets != resets) {
-        // The string is at rest, but what has lost it may be a hand, a hammer or a gain: the motion ends, and
+        // The string is at rest, but what has lost it may be a hand, a hammer or a gain: the voice ends, and
         // the next note starts with nothing of it.
         voice.string.counters.nonfinite_resets = resets + 1;
         finish(voice, state);

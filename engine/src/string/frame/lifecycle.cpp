@@ -172,20 +172,6 @@ StringState make_string_state(const StringModel& model, Metering metering, Skipp
     return state;
 }
 
-void accumulate(const Counters& more, Counters& sum) noexcept {
-    sum.steps += more.steps;
-    sum.candidates += more.candidates;
-    sum.impulses += more.impulses;
-    sum.solves += more.solves;
-    sum.truncated_solves += more.truncated_solves;
-    sum.flown_frames += more.flown_frames;
-    sum.near_frames += more.near_frames;
-    sum.asleep_frames += more.asleep_frames;
-    sum.nonfinite_resets += more.nonfinite_resets;
-    sum.worst_residual_m = std::max(sum.worst_residual_m, more.worst_residual_m);
-    sum.worst_penetration_m = std::max(sum.worst_penetration_m, more.worst_penetration_m);
-}
-
 SceneState make_state(const SceneModel& model, Metering metering, Skipping skipping) {
     SceneState state;
     for (const StringModel& string : model.strings) {
@@ -211,6 +197,12 @@ void reset(const StringModel& model, StringState& state) noexcept {
     state.energy = {};
     state.energy.initial = energy(model, state);
     state.energy.highest = state.energy.initial;
+}
+
+void reset(const SceneModel& model, SceneState& state) noexcept {
+    JAWARI_ASSERT(state.strings.size() == model.strings.size());
+    for (std::size_t s = 0; s < model.strings.size(); ++s) reset(model.strings[s], state.strings[s]);
+    state.frame = 0;
 }
 
 void put_to_rest(const StringModel& model, StringState& state) noexcept {

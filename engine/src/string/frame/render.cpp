@@ -121,9 +121,12 @@ void render(const SceneModel& model, SceneState& state, std::span<double* const>
     state.frame += frames;
 }
 
-void move_contact(const StringModel& model, StringState& state, std::size_t contact, double height_m,
+void move_contact(const StringModel& model, StringState& state, std::size_t described, double height_m,
                   std::size_t steps) JAWARI_REALTIME {
-    JAWARI_ASSERT(contact < model.contact_count);
+    JAWARI_ASSERT(described < model.contact_of_description.size());
+    const std::ptrdiff_t kept = model.contact_of_description[described];
+    if (kept < 0) return;
+    const auto contact = static_cast<std::size_t>(kept);
     ContactState& moved = state.contact;
     const double sign = model.contact_side[contact] == Side::Below ? 1.0 : -1.0;
     const double distance = sign * height_m - moved.height[contact];

@@ -7,6 +7,7 @@
 
 #include "instrument/model/stops.h"
 #include "instrument/voice/voice.h"
+#include "jawari/instrument/compile.h"
 #include "jawari/instrument/model.h"
 #include "jawari/instrument/state.h"
 #include "jawari/scene/modes.h"

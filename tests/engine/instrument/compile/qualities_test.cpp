@@ -1,4 +1,5 @@
 #include "jawari/instrument/qualities.h"
+#include "jawari/instrument/compile.h"
 
 #include <gtest/gtest.h>
 
@@ -16,9 +17,10 @@ using test::small_instrument;
 
 constexpr double rate_hz = 48000;
 
-InstrumentModel with_rungs(const InstrumentDescription& instrument, std::vector<QualityDescription> lower) {
+InstrumentModel with_qualities(const InstrumentDescription& instrument,
+                               std::vector<QualityDescription> lower) {
     InstrumentModel model = compile_instrument(instrument, rate_hz).value();
-    const auto failure = add_rungs(model, instrument, lower);
+    const auto failure = add_qualities(model, instrument, lower);
     EXPECT_FALSE(failure) << failure->line();
     return model;
 }
@@ -26,8 +28,7 @@ InstrumentModel with_rungs(const InstrumentDescription& instrument, std::vector<
 std::vector<InstrumentEvent> chord(const InstrumentModel& model) {
     std::vector<InstrumentEvent> events;
     for (const InstrumentStringModel& string : model.strings)
-        events.push_back(
-            {.type = InstrumentEventType::NoteOn, .key = string.stopped.front().key, .value = 0.9});
+        events.push_back(note_on(0, string.stopped.front().key, 0.9));
     return events;
 }
 
@@ -57,11 +58,12 @@ double true_energy(const InstrumentModel& model, const InstrumentState& state) {
     return sum;
 }
 
-/// A rung that is no lower changes nothing but the last bits: bent, damped, touched motions included.
-TEST(InstrumentRungs, AChangeToTheSameQualityIsNotHeard) {
+/// A quality level that is no lower changes nothing but the last bits: bent, damped, touched motions
+/// included.
+TEST(InstrumentQualities, AChangeToTheSameQualityIsNotHeard) {
     InstrumentDescription instrument = small_instrument();
     instrument.contacts = false;  // contacts would amplify the last bits
-    const InstrumentModel model = with_rungs(instrument, {instrument.quality});
+    const InstrumentModel model = with_qualities(instrument, {instrument.quality});
     const auto events = test::storm(11, 9000, 60);
     InstrumentState plain = make_instrument_state(model);
     InstrumentState changed = make_instrument_state(model);
@@ -82,18 +84,18 @@ TEST(InstrumentRungs, AChangeToTheSameQualityIsNotHeard) {
         loudest = std::max(loudest, largest(a.left));
         if (block % 5 != 4) continue;
         for (std::size_t s = 0; s < model.strings.size(); ++s)
-            change_rung(model, changed, s, (block / 5) % 2);
+            change_quality(model, changed, s, (block / 5) % 2);
         ++changes;
     }
     EXPECT_EQ(changes, 18U);
     EXPECT_GT(loudest, 0);
     EXPECT_LT(difference, 1e-9 * loudest);
-    EXPECT_NEAR(changed.work.rungs_J, 0, 1e-12 * (1 + std::abs(changed.work.exciters_J)));
+    EXPECT_NEAR(changed.work.quality_changes_J, 0, 1e-12 * (1 + std::abs(changed.work.exciters_J)));
 }
 
 /// Without contacts modes do not know of each other: what is left is what the lower instrument has from the
 /// start.
-TEST(InstrumentRungs, TheModesThatStayGoOnAsTheyWere) {
+TEST(InstrumentQualities, TheModesThatStayGoOnAsTheyWere) {
     InstrumentDescription instrument = small_instrument();
     instrument.strings = {instrument.strings[2]};
     instrument.obstacles.clear();
@@ -106,17 +108,14 @@ TEST(InstrumentRungs, TheModesThatStayGoOnAsTheyWere) {
     for (PickupDescription& pickup : instrument.pickups) pickup.magnet_distance_m = 0;  // not linear
     QualityDescription lower = instrument.quality;
     lower.mode_limit_hz = 0.4 * instrument.quality.mode_limit_hz;
-    const InstrumentModel model = with_rungs(instrument, {lower});
+    const InstrumentModel model = with_qualities(instrument, {lower});
     const auto play_on = [&](std::size_t before, std::size_t after) {
         InstrumentState state = make_instrument_state(model);
-        change_rung(model, state, 0, before);
+        change_quality(model, state, 0, before);
         // Calibrated forces know of the modes; the motion does not.
-        std::vector<InstrumentEvent> note{{.type = InstrumentEventType::NoteOn,
-                                           .key = model.strings[0].stopped[0].key,
-                                           .value = 0.5,
-                                           .string = 0}};
+        std::vector<InstrumentEvent> note{note_on_string(0, 0, model.strings[0].stopped[0].key, 0.5)};
         test::play(model, state, note, 2000);
-        change_rung(model, state, 0, after);
+        change_quality(model, state, 0, after);
         return test::play(model, state, {}, 3000).left;
     };
     const std::vector<double> from_full = play_on(0, 1);
@@ -130,7 +129,7 @@ TEST(InstrumentRungs, TheModesThatStayGoOnAsTheyWere) {
 
 /// The exact scheme samples free motion exactly at any step: displacement does not know of the contact rate,
 /// if the velocity has been converted rightly.
-TEST(InstrumentRungs, AnotherContactRateGoesOnWithTheSameMotion) {
+TEST(InstrumentQualities, AnotherContactRateGoesOnWithTheSameMotion) {
     InstrumentDescription instrument = small_instrument();
     instrument.strings = {instrument.strings[2]};
     instrument.obstacles.clear();
@@ -141,58 +140,57 @@ TEST(InstrumentRungs, AnotherContactRateGoesOnWithTheSameMotion) {
     QualityDescription slower = instrument.quality;
     slower.contact_rate_min_hz /= 4;
     slower.mode_limit_hz = instrument.quality.mode_limit_hz;
-    const InstrumentModel model = with_rungs(instrument, {slower});
+    const InstrumentModel model = with_qualities(instrument, {slower});
     ASSERT_NE(model.lower[0][0].stopped[0].string.step_s, model.strings[0].stopped[0].string.step_s);
     std::vector<double> sounds[2];
     for (const bool changed : {false, true}) {
         InstrumentState state = make_instrument_state(model);
-        const std::vector<InstrumentEvent> events{
-            {.type = InstrumentEventType::NoteOn, .key = model.strings[0].stopped[1].key, .value = 0.8}};
+        const std::vector<InstrumentEvent> events{note_on(0, model.strings[0].stopped[1].key, 0.8)};
         test::play(model, state, events, 2000);
-        if (changed) change_rung(model, state, 0, 1);
+        if (changed) change_quality(model, state, 0, 1);
         sounds[changed] = test::play(model, state, {}, 4000).left;
     }
     for (std::size_t n = 0; n < sounds[0].size(); ++n)
         ASSERT_NEAR(sounds[0][n], sounds[1][n], 1e-9 * largest(sounds[0])) << n;
 }
 
-TEST(InstrumentRungs, NoChangeAddsEnergy) {
+TEST(InstrumentQualities, NoChangeAddsEnergy) {
     const InstrumentDescription instrument = small_instrument();
     QualityDescription half = instrument.quality, fifth = instrument.quality;
     half.contact_rate_min_hz /= 2;
     half.mode_limit_hz /= 2;
     fifth.contact_rate_min_hz = half.contact_rate_min_hz;
     fifth.mode_limit_hz /= 5;
-    const InstrumentModel model = with_rungs(instrument, {half, fifth});
+    const InstrumentModel model = with_qualities(instrument, {half, fifth});
     InstrumentState state = make_instrument_state(model);
     test::play(model, state, chord(model), 1500);
-    for (const std::size_t rung : {1UL, 2UL, 0UL, 2UL, 1UL, 0UL}) {
+    for (const std::size_t quality_level : {1UL, 2UL, 0UL, 2UL, 1UL, 0UL}) {
         const double before = true_energy(model, state);
-        double metered = state.work.rungs_J;
+        double metered = state.work.quality_changes_J;
         double discrete = 0;
         for (std::size_t s = 0; s < model.strings.size(); ++s) discrete -= string_energy(model, state, s);
-        for (std::size_t s = 0; s < model.strings.size(); ++s) change_rung(model, state, s, rung);
+        for (std::size_t s = 0; s < model.strings.size(); ++s) change_quality(model, state, s, quality_level);
         for (std::size_t s = 0; s < model.strings.size(); ++s) discrete += string_energy(model, state, s);
-        metered = state.work.rungs_J - metered;
+        metered = state.work.quality_changes_J - metered;
         EXPECT_GT(before, 0);
-        EXPECT_LE(true_energy(model, state), before * (1 + 1e-12)) << rung;
-        EXPECT_NEAR(metered, discrete, 1e-9 * before) << rung;
+        EXPECT_LE(true_energy(model, state), before * (1 + 1e-12)) << quality_level;
+        EXPECT_NEAR(metered, discrete, 1e-9 * before) << quality_level;
         test::play(model, state, {}, 700);
     }
 }
 
-TEST(InstrumentRungs, OutOfRangeIsIgnoredAndIdleStringsJustChange) {
+TEST(InstrumentQualities, OutOfRangeIsIgnoredAndIdleStringsJustChange) {
     const InstrumentDescription instrument = small_instrument();
-    const InstrumentModel model = with_rungs(instrument, {instrument.quality});
+    const InstrumentModel model = with_qualities(instrument, {instrument.quality});
     InstrumentState state = make_instrument_state(model);
-    change_rung(model, state, 0, 2);
-    EXPECT_EQ(state.strings[0].rung, 0U);
-    change_rung(model, state, 0, 1);
-    EXPECT_EQ(state.strings[0].rung, 1U);
-    EXPECT_EQ(state.work.rungs_J, 0);
+    change_quality(model, state, 0, 2);
+    EXPECT_EQ(state.strings[0].quality_level, 0U);
+    change_quality(model, state, 0, 1);
+    EXPECT_EQ(state.strings[0].quality_level, 1U);
+    EXPECT_EQ(state.work.quality_changes_J, 0);
 }
 
-TEST(InstrumentRungs, TheOldestReleasedMotionFadesFirst) {
+TEST(InstrumentQualities, TheOldestReleasedMotionFadesFirst) {
     const InstrumentModel model = compile_instrument(small_instrument(), rate_hz).value();
     InstrumentState state = make_instrument_state(model);
     EXPECT_FALSE(fade_oldest_released(state));
@@ -200,8 +198,7 @@ TEST(InstrumentRungs, TheOldestReleasedMotionFadesFirst) {
     for (std::size_t i = 0; i < events.size(); ++i) events[i].frame = 10 * i;
     test::play(model, state, events, 200);
     EXPECT_FALSE(fade_oldest_released(state));  // all are held
-    for (InstrumentEvent& event : events)
-        event = {.type = InstrumentEventType::NoteOff, .key = event.key, .value = 0.5};
+    for (InstrumentEvent& event : events) event = note_off(0, event.key);
     test::play(model, state, events, 1);
     ASSERT_TRUE(fade_oldest_released(state));
     EXPECT_TRUE(state.strings[0].voices[0].fading);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "jawari/instrument/compile.h"
 #include "support/injure.h"
 #include "support/small_instrument.h"
 
@@ -43,10 +44,8 @@ Heard play(InstrumentState& state, const std::vector<InstrumentEvent>& events, s
 InstrumentState in_the_middle() {
     InstrumentState state = make_instrument_state(model());
     play(state,
-         {{0, Type::SetParameter, 0, 0, 0.3, -1, ParameterId::PalmMute},
-          {0, Type::Bend, 0, -1, 1},
-          {0, Type::NoteOn, 0, 31, 0.5},
-          {0, Type::NoteOn, 0, 45, 0.8}},
+         {set_parameter(0, ParameterId::PalmMute, 0.3), bend_channel(0, 1), note_on(0, 31, 0.5),
+          note_on(0, 45, 0.8)},
          300);
     return state;
 }
@@ -69,7 +68,7 @@ class InstrumentNonFinite : public testing::TestWithParam<std::size_t> {};
 TEST_P(InstrumentNonFinite, StaysOnItsStringIsCountedAndEndsWithTheNextNote) {
     InstrumentState healthy = in_the_middle();
     const Heard expected = play(healthy, {}, 2000);
-    const std::vector<InstrumentEvent> again{{0, Type::NoteOn, 0, 45, 0.8}};
+    const std::vector<InstrumentEvent> again{note_on(0, 45, 0.8)};
     const double healthy_peak = peak(play(healthy, again, 4000).strings[injured]);
     for (std::size_t bad = 0; bad < 3; ++bad) {
         SCOPED_TRACE("number " + std::to_string(bad));

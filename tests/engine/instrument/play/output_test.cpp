@@ -8,6 +8,7 @@
 #include "instrument/voice/body.h"
 #include "instrument/voice/pickups.h"
 #include "instrument/voice/voice.h"
+#include "jawari/instrument/compile.h"
 #include "jawari/scene/modes.h"
 #include "support/bass_instrument.h"
 #include "support/small_instrument.h"
@@ -65,6 +66,27 @@ TEST(Body, ComesToRestAndIsRescuedFromNonsense) {
     EXPECT_TRUE(std::isfinite(advance_body(body, state, 1).left));
 }
 
+/// The instrument's gain reaches pickups and body once, through the strings' level: twice the gain is twice
+/// the sound to the last bit, and the body's own gains stay as described.
+TEST(Body, CarriesTheGainOfTheInstrumentOnceOnly) {
+    InstrumentDescription instrument = open_string();
+    instrument.body = {{.frequency_hz = 180, .t60_s = 0.2, .gain_left = 2, .gain_right = -3}};
+    const auto played = [&](double gain) {
+        instrument.gain = gain;
+        const InstrumentModel model = compile_instrument(instrument, 48000).value();
+        EXPECT_EQ(model.body.gain_left[0], 2);
+        EXPECT_EQ(model.body.gain_right[0], -3);
+        InstrumentState state = make_instrument_state(model);
+        return test::play(model, state, {note_on(0, 28, 0.5)}, 2000);
+    };
+    const auto once = played(0.25), twice = played(0.5);
+    for (std::size_t n = 0; n < 2000; ++n) {
+        ASSERT_EQ(twice.left[n], 2 * once.left[n]) << n;
+        ASSERT_EQ(twice.right[n], 2 * once.right[n]) << n;
+    }
+    EXPECT_NE(once.left[1999], 0);
+}
+
 /// A triangle of height a at x_p exerts T a/(L - x_p) on the bridge: what its modes add up to.
 TEST(Pickup, BridgeForceIsTensionTimesSlope) {
     InstrumentDescription instrument = open_string();
@@ -110,9 +132,8 @@ TEST(Pickup, QuantitiesMixAndMagnet) {
 /// What a pan does to one and the same note.
 test::Played panned(const InstrumentModel& model, double pan) {
     InstrumentState state = make_instrument_state(model);
-    InstrumentEvent turn{0, InstrumentEventType::SetParameter, 0, 0, pan};
-    turn.parameter = ParameterId::Pan;
-    return test::play(model, state, {turn, {0, InstrumentEventType::NoteOn, 0, 28, 0.5}}, 6000);
+    const InstrumentEvent turn = set_parameter(0, ParameterId::Pan, pan);
+    return test::play(model, state, {turn, note_on(0, 28, 0.5)}, 6000);
 }
 
 double power_of(const std::vector<double>& x) {

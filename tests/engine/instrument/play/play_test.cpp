@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "instrument/voice/voice.h"
+#include "jawari/instrument/compile.h"
 #include "support/small_instrument.h"
 
 namespace jawari {
@@ -13,7 +14,6 @@ namespace {
 
 using test::play;
 using test::Played;
-using Type = InstrumentEventType;
 
 constexpr double pi = std::numbers::pi;
 
@@ -33,19 +33,6 @@ const InstrumentModel& free_model() {
         return compile_instrument(bass, 48000).value();
     }();
     return model;
-}
-
-InstrumentEvent note_on(std::size_t frame, int key, double velocity, int channel = 0) {
-    return {frame, Type::NoteOn, channel, key, velocity};
-}
-InstrumentEvent note_off(std::size_t frame, int key, double velocity = 0.5) {
-    return {frame, Type::NoteOff, 0, key, velocity};
-}
-InstrumentEvent bend(std::size_t frame, double semitones) {
-    return {frame, Type::Bend, 0, -1, semitones};
-}
-InstrumentEvent set(std::size_t frame, ParameterId id, double value) {
-    return {frame, Type::SetParameter, 0, 0, value, -1, id};
 }
 
 std::vector<double> mono(const InstrumentModel& model, const std::vector<InstrumentEvent>& events,
@@ -114,18 +101,19 @@ TEST_P(NoClick, AroundTheChange) {
 INSTANTIATE_TEST_SUITE_P(
     Changes, NoClick,
     testing::Values(Change{"note off", {note_off(9600, 33)}},
-                    Change{"hard note off", {note_off(9600, 33, 1)}}, Change{"bend up", {bend(9600, 2)}},
-                    Change{"bend down", {bend(9600, -2)}},
-                    Change{"bend and back", {bend(9600, 1), bend(9800, 0)}},
-                    Change{"vibrato", {set(9600, ParameterId::VibratoDepth, 0.5)}},
-                    Change{"palm", {set(9600, ParameterId::PalmMute, 1)}},
+                    Change{"hard note off", {note_off(9600, 33, 1)}},
+                    Change{"bend up", {bend_channel(9600, 2)}}, Change{"bend down", {bend_channel(9600, -2)}},
+                    Change{"bend and back", {bend_channel(9600, 1), bend_channel(9800, 0)}},
+                    Change{"vibrato", {set_parameter(9600, ParameterId::VibratoDepth, 0.5)}},
+                    Change{"palm", {set_parameter(9600, ParameterId::PalmMute, 1)}},
                     Change{"palm and off",
-                           {set(9600, ParameterId::PalmMute, 0.5), set(10600, ParameterId::PalmMute, 0)}},
-                    Change{"volume", {set(9600, ParameterId::Volume, 0.2)}},
+                           {set_parameter(9600, ParameterId::PalmMute, 0.5),
+                            set_parameter(10600, ParameterId::PalmMute, 0)}},
+                    Change{"volume", {set_parameter(9600, ParameterId::Volume, 0.2)}},
                     Change{"slide",
-                           {set(9500, ParameterId::Legato, 1), set(9500, ParameterId::SlideTime, 0.03),
-                            note_on(9600, 36, 0.6)}},
-                    Change{"all sound off", {{9600, Type::AllSoundOff, 0, 0, 0}}}),
+                           {set_parameter(9500, ParameterId::Legato, 1),
+                            set_parameter(9500, ParameterId::SlideTime, 0.03), note_on(9600, 36, 0.6)}},
+                    Change{"all sound off", {all_sound_off(9600)}}),
     [](const auto& change) {
         std::string name = change.param.name;
         for (char& c : name) c = c == ' ' ? '_' : c;
@@ -135,14 +123,14 @@ INSTANTIATE_TEST_SUITE_P(
 /// Hammer-ons and pull-offs bring new sound: compared with the note plucked at the new fret as hard.
 TEST(Legato, DoesNotClick) {
     for (const int to : {35, 40}) {
-        const std::vector<InstrumentEvent> up{set(0, ParameterId::Legato, 1), note_on(0, 33, 0.6),
+        const std::vector<InstrumentEvent> up{set_parameter(0, ParameterId::Legato, 1), note_on(0, 33, 0.6),
                                               note_on(9600, to, 0.6)};
         const auto first = mono(free_model(), {note_on(0, 33, 0.6)}, 14400);
         const auto second = mono(free_model(), {note_on(9600, to, 0.6)}, 14400);
         const auto legato = mono(free_model(), up, 14400);
         EXPECT_LE(sharpest(legato, 9500, 14300),
                   2 * std::max(sharpest(first, 9500, 14300), sharpest(second, 9500, 14300)));
-        const std::vector<InstrumentEvent> down{set(0, ParameterId::Legato, 1), note_on(0, to, 0.6),
+        const std::vector<InstrumentEvent> down{set_parameter(0, ParameterId::Legato, 1), note_on(0, to, 0.6),
                                                 note_on(9600, 33, 0.6)};
         const auto other = mono(free_model(), {note_on(0, to, 0.6)}, 14400);
         const auto pulled = mono(free_model(), down, 14400);
@@ -156,17 +144,19 @@ TEST(Legato, DoesNotClick) {
 TEST(Pitch, BendsAndSlidesArriveWhereTheyShould) {
     const double A = 55;
     const auto cents = [](double a, double b) { return 1200 * std::log2(a / b); };
-    const auto bent = mono(free_model(), {note_on(0, 33, 0.3), bend(100, 1.5)}, 24000);
+    const auto bent = mono(free_model(), {note_on(0, 33, 0.3), bend_channel(100, 1.5)}, 24000);
     const double up = A * std::exp2(1.5 / 12);
     EXPECT_NEAR(cents(frequency_near(bent, 9600, up), up), 0, 0.3);
-    const auto slid = mono(free_model(),
-                           {set(0, ParameterId::Legato, 1), set(0, ParameterId::SlideTime, 0.1),
-                            note_on(0, 33, 0.3), note_on(1000, 38, 0.3)},
-                           24000);
+    const auto slid =
+        mono(free_model(),
+             {set_parameter(0, ParameterId::Legato, 1), set_parameter(0, ParameterId::SlideTime, 0.1),
+              note_on(0, 33, 0.3), note_on(1000, 38, 0.3)},
+             24000);
     const double fifth = A * std::exp2(5.0 / 12);
     EXPECT_NEAR(cents(frequency_near(slid, 9600, fifth), fifth), 0, 0.3);
-    const auto hammered = mono(
-        free_model(), {set(0, ParameterId::Legato, 1), note_on(0, 33, 0.3), note_on(1000, 38, 0.3)}, 24000);
+    const auto hammered =
+        mono(free_model(),
+             {set_parameter(0, ParameterId::Legato, 1), note_on(0, 33, 0.3), note_on(1000, 38, 0.3)}, 24000);
     EXPECT_NEAR(cents(frequency_near(hammered, 9600, fifth), fifth), 0, 0.3);
 }
 
@@ -175,7 +165,7 @@ TEST(Harmonic, LeavesThePartialsWithANodeUnderTheFinger) {
     const auto plain = mono(free_model(), {note_on(0, 33, 0.3)}, 48000);
     for (const int n : {2, 3, 5}) {
         const auto touched =
-            mono(free_model(), {set(0, ParameterId::Harmonic, n), note_on(0, 33, 0.3)}, 48000);
+            mono(free_model(), {set_parameter(0, ParameterId::Harmonic, n), note_on(0, 33, 0.3)}, 48000);
         const auto loss_db = [&](int k) {
             const double hz = 55 * k * std::sqrt((1 + 6e-5 * k * k) / (1 + 6e-5));
             return 20 * std::log10(level_at(touched, 12000, 36000, hz) / level_at(plain, 12000, 36000, hz));
@@ -206,7 +196,8 @@ TEST(Release, DecaysInTheTimeThePresetSays) {
 
 TEST(DeadNote, DiesAtOnce) {
     const auto plain = mono(free_model(), {note_on(0, 33, 0.5)}, 24000);
-    const auto dead = mono(free_model(), {set(0, ParameterId::DeadNote, 1), note_on(0, 33, 0.5)}, 24000);
+    const auto dead =
+        mono(free_model(), {set_parameter(0, ParameterId::DeadNote, 1), note_on(0, 33, 0.5)}, 24000);
     EXPECT_LT(level_at(dead, 9600, 9600, 55), 0.03 * level_at(plain, 9600, 9600, 55));
     EXPECT_GT(sharpest(dead, 1, 1200), 0.1 * sharpest(plain, 1, 1200));
 }
@@ -263,13 +254,13 @@ TEST(Repeats, ActOnTheMotionThatSounds) {
 
 TEST(Bends, NameNotesOrChannels) {
     InstrumentState state = make_instrument_state(small_model());
-    InstrumentEvent of_note = bend(0, 1);
+    InstrumentEvent of_note = bend_channel(0, 1);
     of_note.key = 31;
-    InstrumentEvent of_channel = bend(0, 0.5);
+    InstrumentEvent of_channel = bend_channel(0, 0.5);
     play(small_model(), state, {note_on(0, 31, 0.5), note_on(0, 45, 0.5), of_note, of_channel}, 4800);
     EXPECT_EQ(state.strings[0].voices[state.strings[0].sounding].bend.semitones, 1);
     EXPECT_EQ(state.strings[2].voices[state.strings[2].sounding].bend.semitones, 0.5);
-    play(small_model(), state, {{0, Type::ResetControllers, 0, 0, 0}}, 4800);
+    play(small_model(), state, {reset_controllers(0)}, 4800);
     EXPECT_FALSE(state.strings[0].voices[state.strings[0].sounding].bend.active);
 }
 
@@ -318,8 +309,8 @@ TEST(Tuning, SetsPitchesAndMovesFretsWhenAsked) {
 
 TEST(Storm, BlockSizeDoesNotChangeABit) {
     auto events = test::storm(3, 12000, 300);
-    events.push_back({11000, Type::SetParameter, 7, 0, 1, -1, ParameterId::Legato});
-    events.push_back({11000, Type::SetParameter, 7, 0, 0, -1, ParameterId::SlideTime});
+    events.push_back(set_parameter(11000, ParameterId::Legato, 1, 7));
+    events.push_back(set_parameter(11000, ParameterId::SlideTime, 0, 7));
     std::size_t frame = 11000;
     for (const int key : {45, 47, 44}) events.push_back(note_on(frame += 200, key, 0.8, 7));
     std::stable_sort(events.begin(), events.end(),
@@ -341,8 +332,8 @@ TEST(Storm, EndsInSilenceWithoutAnythingLost) {
         if (seed % 2 == 1) state.play = PlayMode::Guitar;
         auto events = test::storm(seed, 6000, 200);
         for (int channel = 0; channel < 3; ++channel) {
-            events.push_back({6000, Type::ResetControllers, channel, 0, 0});
-            events.push_back({6000, Type::AllNotesOff, channel, 0, 0});
+            events.push_back(reset_controllers(6000, channel));
+            events.push_back(all_notes_off(6000, channel));
         }
         const Played played = play(small_model(), state, events, 8000);
         for (const double x : played.left) ASSERT_TRUE(std::isfinite(x));
@@ -350,14 +341,14 @@ TEST(Storm, EndsInSilenceWithoutAnythingLost) {
         EXPECT_TRUE(std::isfinite(state.work.touches_J + state.work.exciters_J + state.work.bends_J));
         EXPECT_EQ(held_keys(state), (std::vector{-1, -1})) << "seed " << seed;  // nothing hangs
         for (int channel = 0; channel < 3; ++channel)
-            play(small_model(), state, {{0, Type::AllSoundOff, channel, 0, 0}}, 200);
+            play(small_model(), state, {all_sound_off(0, channel)}, 200);
         for (const InstrumentStringState& string : state.strings) EXPECT_EQ(string.busy, 0U);
     }
 }
 
 /// A string, a hammer and a bend poisoned with NaN: caught, counted, and the other strings do not notice.
 TEST(Storm, NonsenseStaysOnItsString) {
-    const std::vector<InstrumentEvent> start{note_on(0, 31, 0.5), note_on(0, 45, 0.5), bend(0, 1)};
+    const std::vector<InstrumentEvent> start{note_on(0, 31, 0.5), note_on(0, 45, 0.5), bend_channel(0, 1)};
     const double nan = std::numeric_limits<double>::quiet_NaN();
     InstrumentState expected = make_instrument_state(small_model());
     InstrumentState state = make_instrument_state(small_model());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "jawari/instrument/compile.h"
 #include "jawari/instrument/render.h"
 #include "jawari/scene/render.h"
 #include "string/state/excitation.h"
@@ -15,20 +16,12 @@ namespace jawari {
 namespace {
 
 using test::bass_instrument;
-using Type = InstrumentEventType;
 
 constexpr double rate_hz = 48000;
 
 const InstrumentModel& bass_model() {
     static const InstrumentModel model = compile_instrument(bass_instrument(), rate_hz).value();
     return model;
-}
-
-InstrumentEvent note_on(std::size_t frame, int key, double velocity, int channel = 0) {
-    return {frame, Type::NoteOn, channel, key, velocity};
-}
-InstrumentEvent note_off(std::size_t frame, int key, int channel = 0) {
-    return {frame, Type::NoteOff, channel, key, 0};
 }
 
 /// A whole performance in blocks of the given size.
@@ -71,19 +64,19 @@ double sharpest(const std::vector<double>& x, std::size_t begin, std::size_t end
 std::vector<InstrumentEvent> busy_events() {
     std::vector<InstrumentEvent> events{note_on(3, 28, 1),
                                         note_on(700, 40, 0.9),
-                                        note_off(1500, 28),
-                                        {1600, Type::Sustain, 0, 0, 1},
+                                        note_off(1500, 28, 0),
+                                        set_sustain_pedal(1600, true),
                                         note_on(1601, 45, 1),
-                                        note_off(2000, 45),
+                                        note_off(2000, 45, 0),
                                         note_on(2500, 31, 0.8),
                                         note_on(2500, 34, 0.8),
                                         note_on(2600, 43, 0.7),
                                         note_on(2999, 62, 1),
-                                        {3600, Type::Sustain, 0, 0, 0}};
+                                        set_sustain_pedal(3600, false)};
     for (std::size_t i = 0; i < 12; ++i)
         events.push_back(note_on(4000 + 23 * i, 28 + static_cast<int>(i % 3), 1));
-    events.push_back({5000, Type::AllNotesOff, 0, 0, 0});
-    events.push_back({5500, Type::AllSoundOff, 0, 0, 0});
+    events.push_back(all_notes_off(5000));
+    events.push_back(all_sound_off(5500));
     return events;
 }
 
@@ -112,7 +105,7 @@ TEST(InstrumentRender, TheFirstSampleANoteChangesIsThatOfItsEvent) {
         EXPECT_EQ(static_cast<std::size_t>(first - output.begin()), frame);
     }
     const auto held = play({note_on(0, 33, 0.2)}, 6000);
-    const auto released = play({note_on(0, 33, 0.2), note_off(5000, 33)}, 6000);
+    const auto released = play({note_on(0, 33, 0.2), note_off(5000, 33, 0)}, 6000);
     const auto differs = std::mismatch(held.begin(), held.end(), released.begin());
     EXPECT_EQ(differs.first - held.begin(), 5000);
 }
@@ -162,7 +155,7 @@ TEST(InstrumentRender, SoftNotesClearTheFretsAndHardOnesStrikeThem) {
 
 TEST(InstrumentRender, NoteOffDoesNotClick) {
     constexpr std::size_t off = 9600;
-    const auto output = play({note_on(0, 33, 0.2), note_off(off, 33)}, 14400);
+    const auto output = play({note_on(0, 33, 0.2), note_off(off, 33, 0)}, 14400);
     const double around =
         std::max(sharpest(output, off - 2400, off - 240), sharpest(output, off + 240, off + 2400));
     EXPECT_LE(sharpest(output, off - 240, off + 240), 2 * around);
@@ -220,7 +213,7 @@ TEST(InstrumentRender, ANoteThatFindsNoVoiceWaitsForOne) {
 TEST(InstrumentRender, ReleasedNotesComeToRest) {
     InstrumentState state = make_instrument_state(bass_model());
     EXPECT_TRUE(at_rest(state));
-    play(state, {note_on(0, 28, 1), note_off(1000, 28)}, 2000);
+    play(state, {note_on(0, 28, 1), note_off(1000, 28, 0)}, 2000);
     EXPECT_FALSE(at_rest(state));
     play(state, {}, 48000);  // 150 dB in energy
     EXPECT_TRUE(at_rest(state));
@@ -233,7 +226,7 @@ TEST(InstrumentRender, ReleasedNotesComeToRest) {
 
 TEST(InstrumentRender, AllSoundOffEndsWithinTheFade) {
     InstrumentState state = make_instrument_state(bass_model());
-    play(state, {note_on(0, 28, 1), note_on(10, 50, 1), {2000, Type::AllSoundOff, 0, 0, 0}}, 2000 + 145);
+    play(state, {note_on(0, 28, 1), note_on(10, 50, 1), all_sound_off(2000)}, 2000 + 145);
     EXPECT_TRUE(at_rest(state));
 }
 
@@ -265,11 +258,8 @@ TEST(InstrumentNotes, AHeldKeyIsPluckedAgainOnItsString) {
 
 TEST(InstrumentNotes, PedalledNotesAreTakenBeforeHeldOnesThenTheOldest) {
     // 33 can be on the E and the A string. Both are held; the A string's key is up, the pedal down.
-    EXPECT_EQ(held_after({{0, Type::Sustain, 0, 0, 1},
-                          note_on(0, 28, 0.2),
-                          note_on(0, 34, 0.2),
-                          note_off(1, 34),
-                          note_on(2, 33, 0.2)}),
+    EXPECT_EQ(held_after({set_sustain_pedal(0, true), note_on(0, 28, 0.2), note_on(0, 34, 0.2),
+                          note_off(1, 34, 0), note_on(2, 33, 0.2)}),
               (std::vector{28, 33, -1, -1}));
     EXPECT_EQ(held_after({note_on(0, 34, 0.2), note_on(0, 28, 0.2), note_on(2, 33, 0.2)}),
               (std::vector{28, 33, -1, -1}));
@@ -278,20 +268,18 @@ TEST(InstrumentNotes, PedalledNotesAreTakenBeforeHeldOnesThenTheOldest) {
 }
 
 TEST(InstrumentNotes, ThePedalHoldsAndLetsGo) {
-    std::vector<InstrumentEvent> events{{0, Type::Sustain, 0, 0, 1}, note_on(0, 28, 0.2), note_off(1, 28)};
+    std::vector<InstrumentEvent> events{set_sustain_pedal(0, true), note_on(0, 28, 0.2), note_off(1, 28, 0)};
     EXPECT_EQ(held_after(events), (std::vector{28, -1, -1, -1}));
-    events.push_back({2, Type::Sustain, 1, 0, 0});  // another channel's pedal
+    events.push_back(set_sustain_pedal(2, false, 1));  // another channel's pedal
     EXPECT_EQ(held_after(events), (std::vector{28, -1, -1, -1}));
-    events.push_back({3, Type::Sustain, 0, 0, 0});
+    events.push_back(set_sustain_pedal(3, false));
     EXPECT_EQ(held_after(events), (std::vector{-1, -1, -1, -1}));
 }
 
 TEST(InstrumentNotes, ChannelsAreApart) {
-    EXPECT_EQ(held_after({note_on(0, 28, 0.2, 3), note_off(1, 28, 4)}), (std::vector{28, -1, -1, -1}));
-    EXPECT_EQ(held_after({note_on(0, 28, 0.2, 3), {1, Type::AllNotesOff, 4, 0, 0}}),
-              (std::vector{28, -1, -1, -1}));
-    EXPECT_EQ(held_after({note_on(0, 28, 0.2, 3), {1, Type::AllNotesOff, 3, 0, 0}}),
-              (std::vector{-1, -1, -1, -1}));
+    EXPECT_EQ(held_after({note_on(0, 28, 0.2, 3), note_off(1, 28, 0, 4)}), (std::vector{28, -1, -1, -1}));
+    EXPECT_EQ(held_after({note_on(0, 28, 0.2, 3), all_notes_off(1, 4)}), (std::vector{28, -1, -1, -1}));
+    EXPECT_EQ(held_after({note_on(0, 28, 0.2, 3), all_notes_off(1, 3)}), (std::vector{-1, -1, -1, -1}));
 }
 
 TEST(InstrumentNotes, NotesOutOfRangeAreCountedAndNonsenseIsIgnored) {
@@ -299,7 +287,7 @@ TEST(InstrumentNotes, NotesOutOfRangeAreCountedAndNonsenseIsIgnored) {
     const auto output =
         play(state,
              {note_on(0, 27, 1), note_on(0, 64, 1), note_on(0, 28, std::nan("")), note_on(0, 28, 2),
-              note_on(0, 28, 1, 16), note_on(0, -1, 1), note_off(0, 128), note_on(0, 28, 0)},
+              note_on(0, 28, 1, 16), note_on(0, -1, 1), note_off(0, 128, 0), note_on(0, 28, 0)},
              256);
     EXPECT_EQ(largest(output), 0);
     EXPECT_EQ(state.counters.ignored_notes, 2U);

@@ -10,6 +10,7 @@
 
 #include "instrument/voice/voice.h"
 #include "jawari/detail/step_coefficients.h"
+#include "jawari/instrument/compile.h"
 #include "jawari/scene/energy.h"
 #include "jawari/scene/render.h"
 #include "string/frame/short_frame.h"

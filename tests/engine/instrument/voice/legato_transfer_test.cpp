@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "instrument/voice/voice.h"
+#include "jawari/instrument/compile.h"
 #include "jawari/scene/energy.h"
 #include "jawari/scene/modes.h"
 #include "support/bass_instrument.h"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "jawari/instrument/compile.h"
 #include "support/small_instrument.h"
 
 namespace jawari {
@@ -69,9 +70,8 @@ TEST(Action, RaisesFretsNoHigherThanTheStringAtRest) {
 TEST(Action, DecidesHowHardANoteStrikesTheFrets) {
     const auto impulses = [](double action_m) {
         InstrumentState state = make_instrument_state(model_of_small());
-        InstrumentEvent turn{0, InstrumentEventType::SetParameter, 0, 0, action_m};
-        turn.parameter = ParameterId::Action;
-        test::play(model_of_small(), state, {turn, {0, InstrumentEventType::NoteOn, 0, 28, 1}}, 4800);
+        const InstrumentEvent turn = set_parameter(0, ParameterId::Action, action_m);
+        test::play(model_of_small(), state, {turn, note_on(0, 28, 1)}, 4800);
         return contact_counters(state).impulses;
     };
     const std::uint64_t described = impulses(0);

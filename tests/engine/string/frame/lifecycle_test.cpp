@@ -48,8 +48,8 @@ TEST_P(StateOfLaw, ResetPlaysTheSameBitsAgain) {
             EXPECT_FALSE(string.excitation.active);
             EXPECT_EQ(string.counters.steps, 0U);
         }
-        state.frame = 0;
-        for (std::size_t s = 0; s < 2; ++s) reset(model.strings[s], state.strings[s]);
+        reset(model, state);
+        EXPECT_EQ(state.frame, 0U);
         const auto second = rendered(model, state, 300);
         EXPECT_EQ(first, second) << "seed " << seed;
         EXPECT_EQ(state.strings[0].counters.impulses, counters.impulses);

@@ -8,8 +8,6 @@
 namespace jawari::host {
 namespace {
 
-using Type = InstrumentEventType;
-
 /// A cheap bass.
 SharedInstrument bass() {
     InstrumentSettings settings;
@@ -25,8 +23,8 @@ SharedInstrument bass() {
 Score two_parts() {
     Score score;
     score.parts.resize(2);
-    score.parts[0].events = {{100, {.type = Type::NoteOn, .key = 28, .value = 0.5}}};
-    score.parts[1].events = {{1500, {.type = Type::NoteOn, .channel = 3, .key = 33, .value = 0.8}}};
+    score.parts[0].events = {{100, note_on(0, 28, 0.5)}};
+    score.parts[1].events = {{1500, note_on(0, 33, 0.8, 3)}};
     return score;
 }
 

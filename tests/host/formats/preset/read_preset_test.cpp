@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "instrument/preset_library.h"
+#include "jawari/instrument/compile.h"
 #include "jawari/instrument/render.h"
 #include "support/temporary_folder.h"
 
@@ -250,8 +251,7 @@ TEST(FactoryPresets, AllLoadCompileAndSound) {
             const auto model = compile_instrument(preset.value().instrument, rate_hz);
             ASSERT_TRUE(model) << name << ": " << model.failure().line();
             InstrumentState state = make_instrument_state(model.value());
-            const InstrumentEvent event{0, InstrumentEventType::NoteOn, 0,
-                                        model.value().strings[0].stopped[0].key, 0.8};
+            const InstrumentEvent event = note_on(0, model.value().strings[0].stopped[0].key, 0.8);
             std::vector<double> output(4096);
             render_instrument(model.value(), state, {&event, 1}, output.data(), output.size());
             double peak = 0;
@@ -272,8 +272,7 @@ TEST(FactoryPresets, SoftNotesOfTheFrettedBassClearEveryFret) {
         ASSERT_TRUE(model);
         for (std::size_t fret = 0; fret <= bass.frets.height_m.size(); ++fret) {
             InstrumentState state = make_instrument_state(model.value());
-            const InstrumentEvent event{0, InstrumentEventType::NoteOn, 0,
-                                        string.open_note + static_cast<int>(fret), 30 / 127.0};
+            const InstrumentEvent event = note_on(0, string.open_note + static_cast<int>(fret), 30 / 127.0);
             std::vector<double> output(9600);
             render_instrument(model.value(), state, {&event, 1}, output.data(), output.size());
             EXPECT_EQ(contact_counters(state).impulses, 0U) << string.name << " fret " << fret;
