@@ -1,9 +1,8 @@
 # Defines jawari_highway if Highway is there: the parent's own target, else Highway's CMake package (vcpkg, Conan, Homebrew,
-# Debian), else pkg-config. Read by the build and by the installed package. The targets are global, because a parent project
-# links them from its own folders.
+# Debian), else pkg-config. Read by the build and by the installed package.
 if(NOT TARGET jawari_highway)
   if(NOT TARGET hwy::hwy AND NOT TARGET hwy)
-    find_package(hwy 1.0 CONFIG QUIET GLOBAL)
+    find_package(hwy 1.0 CONFIG QUIET)
   endif()
   set(JAWARI_HIGHWAY_TARGET "")
   if(TARGET hwy::hwy)
@@ -13,14 +12,14 @@ if(NOT TARGET jawari_highway)
   else()
     find_package(PkgConfig QUIET)
     if(PkgConfig_FOUND)
-      pkg_check_modules(JawariHighway QUIET IMPORTED_TARGET GLOBAL "libhwy >= 1.0")
+      pkg_check_modules(JawariHighway QUIET IMPORTED_TARGET "libhwy >= 1.0")
       if(JawariHighway_FOUND)
         set(JAWARI_HIGHWAY_TARGET PkgConfig::JawariHighway)
       endif()
     endif()
   endif()
   if(JAWARI_HIGHWAY_TARGET)
-    add_library(jawari_highway INTERFACE IMPORTED GLOBAL)
+    add_library(jawari_highway INTERFACE IMPORTED)
     set_property(TARGET jawari_highway PROPERTY INTERFACE_LINK_LIBRARIES ${JAWARI_HIGHWAY_TARGET})
   endif()
 endif()

@@ -31,6 +31,6 @@ add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/layers.stamp
   COMMAND ${CMAKE_COMMAND} -D ROOT=${PROJECT_SOURCE_DIR} -P ${PROJECT_SOURCE_DIR}/cmake/check_layers.cmake
   COMMAND ${CMAKE_COMMAND} -E touch ${PROJECT_BINARY_DIR}/layers.stamp
   DEPENDS ${JAWARI_LAYERED_FILES} ${PROJECT_SOURCE_DIR}/cmake/check_layers.cmake ${PROJECT_SOURCE_DIR}/cmake/layers.txt
-  COMMENT "Includes run downward"
+  COMMENT "Looking for includes that run upward"
   VERBATIM)
 add_custom_target(jawari_layers DEPENDS ${PROJECT_BINARY_DIR}/layers.stamp)
