@@ -198,7 +198,7 @@ struct ShortFrameState {
     AlignedVector<double> impulses;     ///< lambda at each step, steps x contact_stride
     std::vector<std::uint32_t> struck;  ///< contacts with impulses in the frame; `struck_count` are valid
     std::size_t struck_count = 0;
-    /// What StringModel::step_response is to a model that has none because its tension changes: rows of the
+    /// What StringTuning::step_response is to a string that has none because its tension changes: rows of the
     /// contacts in `response_known` hold until forget_responses(), short_frame.h.
     AlignedVector<double> step_response;
     std::vector<std::uint8_t> response_known;
@@ -233,6 +233,9 @@ struct StringState {
     NearState near_frame;
     ShortFrameState short_frame;
     Skipping skipping;
+    /// Frames with a contact that may close evaluate only such contacts, if `skipping` lets them; false at a
+    /// tension for which it is not known how impulses push the others.
+    bool steps_near = true;
     ExcitationState excitation;
     ContactState contact;
     LcpWorkspace lcp;

@@ -50,11 +50,11 @@ void complete_lookouts(const StringModel& model, StringState& state, std::size_t
         bounds.missing_groups[count++] = g;
     }
     if (count == 0) return;
-    const double* envelope = model.certificate.envelope.data();
-    kernels::indexed_row_products(bounds.missing_groups.data(), count, low, model.stride, envelope,
+    const double* envelope = model.shape->certificate.envelope.data();
+    kernels::indexed_row_products(bounds.missing_groups.data(), count, low, model.shape->stride, envelope,
                                   bounds.detour.data(), lookout.group_detour.data());
-    kernels::indexed_row_products(bounds.missing_groups.data(), count, high, model.stride, envelope + low,
-                                  bounds.extent.data() + low, lookout.group_overtones.data());
+    kernels::indexed_row_products(bounds.missing_groups.data(), count, high, model.shape->stride,
+                                  envelope + low, bounds.extent.data() + low, lookout.group_overtones.data());
     for (std::size_t i = 0; i < count; ++i) {
         const auto g = bounds.missing_groups[i];
         lookout.group_detour[g] *= bound_safety;
@@ -65,8 +65,8 @@ void complete_lookouts(const StringModel& model, StringState& state, std::size_t
 /// gap[c] <- S q - b of the contacts, low modes alone.
 void low_gaps(const StringModel& model, const StringState& state, std::span<const std::uint32_t> contacts,
               const AlignedVector<double>& displacement, std::vector<double>& gap) {
-    kernels::indexed_row_products(contacts.data(), contacts.size(), low_modes(model), model.stride,
-                                  model.contact_rows.data(), displacement.data(), gap.data());
+    kernels::indexed_row_products(contacts.data(), contacts.size(), low_modes(model), model.shape->stride,
+                                  model.shape->contact_rows.data(), displacement.data(), gap.data());
     for (const auto c : contacts) gap[c] -= state.contact.height[c];
 }
 
@@ -87,7 +87,7 @@ void fly_low_modes(const StringModel& model, StringState& state) {
     kernels::FlightRun run;
     run.modes = low;
     run.frames = 1;
-    run.flight = &model.flight;
+    run.flight = &model.tuning.flight;
     run.q = lookout.displacement.data();
     run.v = lookout.velocity.data();
     kernels::fly_frames(run);

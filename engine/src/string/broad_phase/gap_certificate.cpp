@@ -36,8 +36,8 @@ std::size_t find_watched(const StringModel& model, StringState& state, double fr
     };
     for (std::size_t g = 0; g < group_count(model); ++g) {
         const auto begin = bounds.open_until.begin();
-        const auto first = begin + static_cast<std::ptrdiff_t>(model.certificate.group_begin[g]);
-        const auto last = begin + static_cast<std::ptrdiff_t>(model.certificate.group_begin[g + 1]);
+        const auto first = begin + static_cast<std::ptrdiff_t>(model.shape->certificate.group_begin[g]);
+        const auto last = begin + static_cast<std::ptrdiff_t>(model.shape->certificate.group_begin[g + 1]);
         if (!(*std::min_element(first, last) > limit_of(g)))
             bounds.expired_groups[groups++] = static_cast<std::uint32_t>(g);
     }
@@ -47,8 +47,8 @@ std::size_t find_watched(const StringModel& model, StringState& state, double fr
         const auto g = bounds.expired_groups[i];
         if (stays_clear(model, state, g)) continue;
         const double limit = limit_of(g);
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
-             ++c) {
+        for (std::size_t c = model.shape->certificate.group_begin[g];
+             c < model.shape->certificate.group_begin[g + 1]; ++c) {
             if (!(bounds.open_until[c] > limit))
                 bounds.lookout.watched[watched++] = static_cast<std::uint32_t>(c);
         }
@@ -65,7 +65,7 @@ std::size_t find_watched_under_force(const StringModel& model, StringState& stat
     const double* speed = bounds.group_speed.data();
     std::uint32_t* watched = bounds.lookout.watched.data();
     std::size_t count = 0;
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
+    for (std::size_t c = 0; c < model.shape->contact_count; ++c) {
         const std::size_t g = group_of(model, c);
         watched[count] = static_cast<std::uint32_t>(c);
         count += open_until[c] > odometer[g] + (speed[g] + kick) * time ? 0 : 1;
@@ -79,8 +79,8 @@ std::size_t find_expired_groups(const StringModel& model, StringState& state) {
     std::size_t expired = 0;
     for (std::size_t g = 0; g < group_count(model); ++g) {
         const double limit = bounds.group_odometer[g] + frame_travel(model, gap_speed(state, g));
-        const std::size_t end = model.certificate.group_begin[g + 1];
-        for (std::size_t c = model.certificate.group_begin[g]; c < end; ++c) {
+        const std::size_t end = model.shape->certificate.group_begin[g + 1];
+        for (std::size_t c = model.shape->certificate.group_begin[g]; c < end; ++c) {
             if (bounds.open_until[c] > limit) continue;
             bounds.expired_groups[expired++] = static_cast<std::uint32_t>(g);
             break;
@@ -99,8 +99,8 @@ std::size_t find_expired(const StringModel& model, StringState& state) {
         const auto g = bounds.expired_groups[i];
         if (stays_clear(model, state, g)) continue;
         const double limit = bounds.group_odometer[g] + frame_travel(model, gap_speed(state, g));
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
-             ++c) {
+        for (std::size_t c = model.shape->certificate.group_begin[g];
+             c < model.shape->certificate.group_begin[g + 1]; ++c) {
             if (bounds.open_until[c] > limit || bounds.certified_at[c] == state.frame) continue;
             bounds.expired[expired++] = static_cast<std::uint32_t>(c);
         }
@@ -117,8 +117,8 @@ void compute_frame_gaps(const StringModel& model, StringState& state, std::size_
         const auto c = bounds.expired[i];
         if (bounds.frame_gap_at[c] != state.frame) list[unknown++] = c;
     }
-    kernels::indexed_row_products(list.data(), unknown, state.active_modes, model.stride,
-                                  model.contact_rows.data(), state.displacement.data(),
+    kernels::indexed_row_products(list.data(), unknown, state.active_modes, model.shape->stride,
+                                  model.shape->contact_rows.data(), state.displacement.data(),
                                   bounds.frame_gap.data());
     for (std::size_t i = 0; i < unknown; ++i) {
         const auto c = list[i];
@@ -154,9 +154,9 @@ std::size_t find_uncertain(const StringModel& model, StringState& state) {
 /// All contacts, with their gaps.
 std::size_t take_all_gaps(const StringModel& model, StringState& state) {
     std::vector<std::uint32_t>& list = state.certificate.expired;
-    std::iota(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(model.contact_count), 0U);
-    compute_frame_gaps(model, state, model.contact_count);
-    return model.contact_count;
+    std::iota(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(model.shape->contact_count), 0U);
+    compute_frame_gaps(model, state, model.shape->contact_count);
+    return model.shape->contact_count;
 }
 
 /// The detours of the groups that the first `left` expired contacts belong to.
@@ -175,8 +175,8 @@ void certify_by_both_ends(const StringModel& model, StringState& state, std::siz
     CertificateState& bounds = state.certificate;
     const KickState kicks = is_excited(state) ? bounds.kicks : KickState{};
     ContactState& contact = state.contact;
-    kernels::indexed_row_products(bounds.expired.data(), left, state.active_modes, model.stride,
-                                  model.contact_rows.data(), state.displacement_flown.data(),
+    kernels::indexed_row_products(bounds.expired.data(), left, state.active_modes, model.shape->stride,
+                                  model.shape->contact_rows.data(), state.displacement_flown.data(),
                                   bounds.frame_end_gap.data());
     for (std::size_t i = 0; i < left; ++i) {
         const auto c = bounds.expired[i];
@@ -202,8 +202,8 @@ void set_margins(const StringModel& model, StringState& state) {
     for (std::size_t g = 0; g < group_count(model); ++g) {
         const double limit = bounds.group_odometer[g] + frame_travel(model, gap_speed(state, g));
         const bool clear = stays_clear(model, state, g);
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
-             ++c) {
+        for (std::size_t c = model.shape->certificate.group_begin[g];
+             c < model.shape->certificate.group_begin[g + 1]; ++c) {
             // Of contacts certified by both ends or by the lookout the margin is known; their odometer
             // reading is the frame's end.
             if (bounds.frame_gap_at[c] == state.frame + 1 || bounds.certified_at[c] == state.frame) continue;
@@ -217,8 +217,8 @@ void set_group_margins(const StringModel& model, StringState& state) {
     CertificateState& bounds = state.certificate;
     for (std::size_t g = 0; g < group_count(model); ++g) {
         double smallest = std::numeric_limits<double>::infinity();
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
-             ++c) {
+        for (std::size_t c = model.shape->certificate.group_begin[g];
+             c < model.shape->certificate.group_begin[g + 1]; ++c) {
             if (state.contact.is_near[c] == 0) smallest = std::min(smallest, bounds.margin[c]);
         }
         bounds.group_margin[g] = smallest;
@@ -287,7 +287,7 @@ void advance_bounds(const StringModel& model, StringState& state) JAWARI_REALTIM
 void note_stepped_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
     CertificateState& bounds = state.certificate;
     const ContactState& contact = state.contact;
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
+    for (std::size_t c = 0; c < model.shape->contact_count; ++c) {
         if (contact.is_near[c] != 0) {
             bounds.frame_gap[c] = contact.gap[c];
             bounds.frame_gap_at[c] = state.frame + 1;
@@ -318,8 +318,8 @@ void forget_bounds(StringState& state) JAWARI_REALTIME {
 
 void choose_all_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
-    contact.near_count = state.leaves_obstacles ? 0 : model.contact_count;
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
+    contact.near_count = state.leaves_obstacles ? 0 : model.shape->contact_count;
+    for (std::size_t c = 0; c < model.shape->contact_count; ++c) {
         contact.near[c] = static_cast<std::uint32_t>(c);
         contact.is_near[c] = state.leaves_obstacles ? 0 : 1;
     }

@@ -11,29 +11,29 @@ namespace {
 /// What the step's impulses may move a group's gaps until the frame's end.
 double push_of_step(const StringModel& model, const StringState& state, std::size_t g) {
     const ContactState& contact = state.contact;
-    const double* push = model.certificate.push.data() + g * model.contact_count;
+    const double* push = model.shape->certificate.push_speed.data() + g * model.shape->contact_count;
     double speed = 0;
     for (std::size_t i = 0; i < contact.candidate_count; ++i) {
         const auto c = contact.candidates[i];
         speed += push[c] * contact.impulse[c];
     }
-    const double time_left = model.step_s * static_cast<double>(state.steps_left) + lookahead(model);
-    return bound_safety * model.certificate.push_growth * speed * time_left;
+    const double time_left = model.shape->step_s * static_cast<double>(state.steps_left) + lookahead(model);
+    return bound_safety * model.tuning.certificate.push_growth * speed * time_left;
 }
 
 }  // namespace
 
 bool admit_pushed_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
-    if (contact.near_count == model.contact_count) return false;
+    if (contact.near_count == model.shape->contact_count) return false;
     CertificateState& bounds = state.certificate;
     bool admitted = false;
     for (std::size_t g = 0; g < group_count(model); ++g) {
         const double push = bounds.group_push[g] + push_of_step(model, state, g);
         if (bounds.group_margin[g] > push) continue;
         double smallest = std::numeric_limits<double>::infinity();
-        for (std::size_t c = model.certificate.group_begin[g]; c < model.certificate.group_begin[g + 1];
-             ++c) {
+        for (std::size_t c = model.shape->certificate.group_begin[g];
+             c < model.shape->certificate.group_begin[g + 1]; ++c) {
             if (contact.is_near[c] != 0) continue;
             if (bounds.margin[c] > push) {
                 smallest = std::min(smallest, bounds.margin[c]);
@@ -50,7 +50,7 @@ bool admit_pushed_contacts(const StringModel& model, StringState& state) JAWARI_
 void charge_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME {
     CertificateState& bounds = state.certificate;
     bounds.outdated = true;
-    if (state.contact.near_count == model.contact_count) return;
+    if (state.contact.near_count == model.shape->contact_count) return;
     for (std::size_t g = 0; g < group_count(model); ++g)
         bounds.group_push[g] += push_of_step(model, state, g);
 }

@@ -25,14 +25,19 @@ bool may_skip(const StringModel& model, const StringState& state) {
     const Skipping& skipping = state.skipping;
     const bool any =
         skipping.flight || skipping.certificate || skipping.near || skipping.lazy || skipping.sleep;
-    return any && model.scheme == Scheme::Exact && state.metering != Metering::Step;
+    return any && model.shape->scheme == Scheme::Exact && state.metering != Metering::Step;
+}
+
+/// Whether frames with contacts that may close leave out all other contacts.
+bool evaluates_near_alone(const StringState& state) {
+    return state.skipping.near && state.steps_near;
 }
 
 /// The frame step by step, evaluating the near contacts. Returns true if impulses happened.
 bool step_through(const StringModel& model, StringState& state) {
     const std::uint64_t impulses_before = state.counters.impulses;
     place_gaps(model, state);
-    for (state.steps_left = model.steps_per_frame; state.steps_left > 0;) step(model, state);
+    for (state.steps_left = model.shape->steps_per_frame; state.steps_left > 0;) step(model, state);
     return state.counters.impulses != impulses_before;
 }
 
@@ -42,13 +47,13 @@ bool fly(const StringModel& model, StringState& state) {
     const double *q = state.displacement.data(), *v = state.velocity.data();
     double *q_end = state.displacement_flown.data(), *v_end = state.velocity_flown.data();
     if (excitation.ramps) {
-        kernels::fly(state.active_modes, model.flight, q, v, q_end, v_end);
-        return kernels::add_force_response(state.active_modes, model.flight, excitation.held.data(),
+        kernels::fly(state.active_modes, model.tuning.flight, q, v, q_end, v_end);
+        return kernels::add_force_response(state.active_modes, model.tuning.flight, excitation.held.data(),
                                            excitation.ramp.data(), static_cast<double>(excitation.elapsed),
                                            q_end, v_end);
     }
-    return kernels::fly_forced(state.active_modes, excitation.modes, model.flight, excitation.held.data(), q,
-                               v, q_end, v_end);
+    return kernels::fly_forced(state.active_modes, excitation.modes, model.tuning.flight,
+                               excitation.held.data(), q, v, q_end, v_end);
 }
 
 void adopt_flight(StringState& state) {
@@ -61,8 +66,8 @@ void pass_freely(const StringModel& model, StringState& state) {
     state.certificate.struck = false;
     if (state.skipping.flight) {
         adopt_flight(state);
-        state.excitation.elapsed += model.steps_per_frame;
-        state.counters.steps += model.steps_per_frame;
+        state.excitation.elapsed += model.shape->steps_per_frame;
+        state.counters.steps += model.shape->steps_per_frame;
         state.counters.flown_frames += 1;
     } else {
         step_through(model, state);
@@ -80,7 +85,7 @@ bool pass_short(const StringModel& model, StringState& state) {
 
 /// Whether frames with contact are solved as short ones.
 bool goes_short(const StringModel& model, const StringState& state) {
-    return state.skipping.near && has_short_frames(model);
+    return evaluates_near_alone(state) && has_short_frames(model);
 }
 
 /// A look under forces has found contacts that may close: the next look is the later, the longer that lasts.
@@ -104,8 +109,8 @@ void take_up_gaps(const StringModel& model, StringState& state) {
 
 /// The frame with contacts that may close. What was flown stays valid if none did.
 void pass_near(const StringModel& model, StringState& state) {
-    const bool in_contact_space = state.skipping.near && !model.response.empty();
-    if (!state.skipping.near) choose_all_contacts(model, state);
+    const bool in_contact_space = evaluates_near_alone(state) && !model.tuning.response.empty();
+    if (!evaluates_near_alone(state)) choose_all_contacts(model, state);
     const bool struck = in_contact_space ? solve_near_frame(model, state) : step_through(model, state);
     state.counters.near_frames += 1;
     if (in_contact_space || !struck) adopt_flight(state);
@@ -117,7 +122,7 @@ void pass_near(const StringModel& model, StringState& state) {
 /// Everything is stepped; nothing is known of the gaps afterwards.
 void pass_uniformly(const StringModel& model, StringState& state) {
     choose_all_contacts(model, state);
-    state.active_modes = model.stride;
+    state.active_modes = model.shape->stride;
     step_through(model, state);
     forget_bounds(state);
 }
@@ -145,7 +150,7 @@ void start_again(const StringModel& model, StringState& state) {
 /// Whether every contact must be evaluated at every step.
 bool is_uniform(const StringModel& model, const StringState& state) {
     return !may_skip(model, state) || state.contact.moving_count > 0 ||
-           (!state.skipping.certificate && model.contact_count > 0);
+           (!state.skipping.certificate && model.shape->contact_count > 0);
 }
 
 /// Returns false if the state has become non-finite.
@@ -215,7 +220,7 @@ void fly_ahead(const StringModel& model, StringState& state, std::span<const Rea
     kernels::FlightRun run;
     run.modes = state.active_modes;
     run.frames = frames;
-    run.flight = &model.flight;
+    run.flight = &model.tuning.flight;
     run.q = state.displacement.data();
     run.v = state.velocity.data();
     run.readings = readings;
@@ -224,7 +229,7 @@ void fly_ahead(const StringModel& model, StringState& state, std::span<const Rea
     const bool finite = kernels::fly_frames(run);
     state.certificate.free_frames -= frames;
     state.certificate.struck = false;
-    state.counters.steps += frames * model.steps_per_frame;
+    state.counters.steps += frames * model.shape->steps_per_frame;
     state.counters.flown_frames += frames;
     state.frame += frames;
     if (finite) return;

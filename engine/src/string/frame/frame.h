@@ -20,7 +20,7 @@ inline bool sleeps_on(const StringState& state) {
 /// Counts frames that cost nothing. Precondition: sleeps_on(state).
 inline void pass_asleep(const StringModel& model, StringState& state, std::size_t frames) JAWARI_REALTIME {
     state.counters.asleep_frames += frames;
-    state.counters.steps += frames * model.steps_per_frame;
+    state.counters.steps += frames * model.shape->steps_per_frame;
     state.frame += frames;
 }
 

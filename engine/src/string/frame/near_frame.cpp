@@ -19,14 +19,14 @@ void drive_by_excitation(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
     const ExcitationState& excitation = state.excitation;
     std::fill(near.force_rows.begin(), near.force_rows.end(), 0.0);
-    kernels::add_impulse(model.stride, 1.0, model.mobility.data(), excitation.held.data(),
+    kernels::add_impulse(model.shape->stride, 1.0, model.shape->mobility.data(), excitation.held.data(),
                          near.force_rows.data());
-    kernels::add_impulse(model.stride, 1.0, model.mobility.data(), excitation.ramp.data(),
-                         near.force_rows.data() + model.stride);
-    for (std::size_t n = 0; n < model.steps_per_frame; ++n) {
-        near.force_impulses[n] = model.step_s;
-        near.force_impulses[model.response_stride + n] =
-            model.step_s * static_cast<double>(excitation.elapsed + n);
+    kernels::add_impulse(model.shape->stride, 1.0, model.shape->mobility.data(), excitation.ramp.data(),
+                         near.force_rows.data() + model.shape->stride);
+    for (std::size_t n = 0; n < model.shape->steps_per_frame; ++n) {
+        near.force_impulses[n] = model.shape->step_s;
+        near.force_impulses[model.shape->response_stride + n] =
+            model.shape->step_s * static_cast<double>(excitation.elapsed + n);
     }
 }
 
@@ -39,23 +39,23 @@ void run_free(const StringModel& model, StringState& state, std::size_t first) {
     kernels::ModeRun run = kernels::frame_run(model);
     run.modes = state.active_modes;
     for (std::size_t i = first; i < contact.near_count; ++i) {
-        near.rows[i] = model.contact_rows.data() + contact.near[i] * model.stride;
+        near.rows[i] = model.shape->contact_rows.data() + contact.near[i] * model.shape->stride;
     }
     run.probes = contact.near_count - first;
     run.probe_rows = near.rows.data() + first;
-    run.rates = near.rates_free.data() + first * model.response_stride;
-    run.rate_stride = model.response_stride;
+    run.rates = near.rates_free.data() + first * model.shape->response_stride;
+    run.rate_stride = model.shape->response_stride;
     run.lanes = near.lanes.data();
     run.q = near.displacement.data();
     run.v = near.velocity.data();
     const std::array<const double*, 2> force_rows{near.force_rows.data(),
-                                                  near.force_rows.data() + model.stride};
+                                                  near.force_rows.data() + model.shape->stride};
     if (is_excited(state)) {
         drive_by_excitation(model, state);
         run.drivers = state.excitation.ramps ? 2 : 1;
         run.driver_rows = force_rows.data();
         run.impulses = near.force_impulses.data();
-        run.impulse_stride = model.response_stride;
+        run.impulse_stride = model.shape->response_stride;
     }
     kernels::run_modes(run);
 }
@@ -85,10 +85,10 @@ double* impulses_of(const StringModel& model, NearState& near, std::uint32_t con
     const auto end = near.struck.begin() + static_cast<std::ptrdiff_t>(near.struck_count);
     const auto found = std::find(near.struck.begin(), end, contact);
     const auto slot = static_cast<std::size_t>(found - near.struck.begin());
-    double* impulses = near.impulses.data() + slot * model.response_stride;
+    double* impulses = near.impulses.data() + slot * model.shape->response_stride;
     if (found == end) {
         near.struck[near.struck_count++] = contact;
-        std::fill_n(impulses, model.response_stride, 0.0);
+        std::fill_n(impulses, model.shape->response_stride, 0.0);
     }
     return impulses;
 }
@@ -118,11 +118,11 @@ void spread_over_time(const StringModel& model, StringState& state, std::size_t 
 /// The same over all contacts for each later step.
 void spread_over_contacts(const StringModel& model, StringState& state, std::size_t n) {
     const ContactState& contact = state.contact;
-    const std::size_t stride = model.contact_stride;
-    const std::size_t step = model.contact_count * stride;
-    for (std::size_t later = n + 1; later < model.steps_per_frame; ++later) {
+    const std::size_t stride = model.shape->contact_stride;
+    const std::size_t step = model.shape->contact_count * stride;
+    for (std::size_t later = n + 1; later < model.shape->steps_per_frame; ++later) {
         kernels::add_rows(contact.candidates.data(), contact.candidate_count, contact.impulse.data(), stride,
-                          stride, model.step_response.data() + (later - n) * step,
+                          stride, model.tuning.step_response.data() + (later - n) * step,
                           state.near_frame.rates.data() + later * stride);
     }
 }
@@ -131,12 +131,12 @@ void spread_over_contacts(const StringModel& model, StringState& state, std::siz
 void predict_near_gaps(const StringModel& model, StringState& state, std::size_t n) {
     ContactState& contact = state.contact;
     const AlignedVector<double>& rates = state.near_frame.rates;
-    const bool by_step = !model.step_response.empty();
+    const bool by_step = !model.tuning.step_response.empty();
     for (std::size_t i = 0; i < contact.near_count; ++i) {
         const auto c = contact.near[i];
-        const double rate =
-            by_step ? rates[n * model.contact_stride + c] : rates[i * model.response_stride + n];
-        contact.gap_free[c] = contact.gap[c] + model.step_s * rate;
+        const double rate = by_step ? rates[n * model.shape->contact_stride + c]
+                                    : rates[i * model.shape->response_stride + n];
+        contact.gap_free[c] = contact.gap[c] + model.shape->step_s * rate;
     }
 }
 
@@ -144,14 +144,15 @@ void predict_near_gaps(const StringModel& model, StringState& state, std::size_t
 void begin_rates(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
     const ContactState& contact = state.contact;
-    if (model.step_response.empty()) {
-        std::copy_n(near.rates_free.begin(), contact.near_count * model.response_stride, near.rates.begin());
+    if (model.tuning.step_response.empty()) {
+        std::copy_n(near.rates_free.begin(), contact.near_count * model.shape->response_stride,
+                    near.rates.begin());
         return;
     }
     for (std::size_t i = 0; i < contact.near_count; ++i) {
-        for (std::size_t n = 0; n < model.steps_per_frame; ++n)
-            near.rates[n * model.contact_stride + contact.near[i]] =
-                near.rates_free[i * model.response_stride + n];
+        for (std::size_t n = 0; n < model.shape->steps_per_frame; ++n)
+            near.rates[n * model.shape->contact_stride + contact.near[i]] =
+                near.rates_free[i * model.shape->response_stride + n];
     }
 }
 
@@ -160,14 +161,14 @@ void solve_in_contact_space(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
     begin_rates(model, state);
     near.struck_count = 0;
-    near.first_impulse = model.steps_per_frame;
-    for (std::size_t n = 0; n < model.steps_per_frame; ++n) {
+    near.first_impulse = model.shape->steps_per_frame;
+    for (std::size_t n = 0; n < model.shape->steps_per_frame; ++n) {
         predict_near_gaps(model, state, n);
         if (select_candidates(model, state)) {
             solve_impulses(model, state);
             near.first_impulse = std::min(near.first_impulse, n);
             keep_impulses(model, state, n);
-            if (model.step_response.empty()) {
+            if (model.tuning.step_response.empty()) {
                 spread_over_time(model, state, n);
             } else {
                 spread_over_contacts(model, state, n);
@@ -184,13 +185,14 @@ bool admit_pushed(const StringModel& model, StringState& state) {
     ContactState& contact = state.contact;
     CertificateState& bounds = state.certificate;
     const NearState& near = state.near_frame;
-    const std::vector<std::size_t>& begin = model.certificate.group_begin;
+    const std::vector<std::size_t>& begin = model.shape->certificate.group_begin;
     const std::size_t before = contact.near_count;
     for (std::size_t g = 0; g + 1 < begin.size(); ++g) {
         double push = 0;
         for (std::size_t i = 0; i < near.struck_count; ++i) {
             const auto struck = near.struck[i];
-            push += model.certificate.push[g * model.contact_count + struck] * contact.frame_impulse[struck];
+            push += model.tuning.certificate.push_path[g * model.shape->contact_count + struck] *
+                    contact.frame_impulse[struck];
         }
         bounds.group_push[g] = push;
         if (bounds.group_margin[g] > push) continue;
@@ -207,24 +209,24 @@ bool admit_pushed(const StringModel& model, StringState& state) {
 /// the end.
 void run_impulses(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
-    state.active_modes = model.stride;
+    state.active_modes = model.shape->stride;
     std::fill(near.displacement.begin(), near.displacement.end(), 0.0);
     std::fill(near.velocity.begin(), near.velocity.end(), 0.0);
     kernels::ModeRun run = kernels::frame_run(model);
     for (std::size_t i = 0; i < near.struck_count; ++i) {
-        near.rows[i] = model.contact_rows.data() + near.struck[i] * model.stride;
+        near.rows[i] = model.shape->contact_rows.data() + near.struck[i] * model.shape->stride;
     }
     run.drivers = near.struck_count;
     run.driver_rows = near.rows.data();
     run.impulses = near.impulses.data() + near.first_impulse;
-    run.impulse_stride = model.response_stride;
-    run.steps = model.steps_per_frame - near.first_impulse;
+    run.impulse_stride = model.shape->response_stride;
+    run.steps = model.shape->steps_per_frame - near.first_impulse;
     run.q = near.displacement.data();
     run.v = near.velocity.data();
     kernels::run_modes(run);
-    kernels::add_impulse(model.stride, 1.0, model.mobility.data(), near.displacement.data(),
+    kernels::add_impulse(model.shape->stride, 1.0, model.shape->mobility.data(), near.displacement.data(),
                          state.displacement_flown.data());
-    kernels::add_impulse(model.stride, 1.0, model.mobility.data(), near.velocity.data(),
+    kernels::add_impulse(model.shape->stride, 1.0, model.shape->mobility.data(), near.velocity.data(),
                          state.velocity_flown.data());
 }
 
@@ -243,8 +245,8 @@ bool solve_near_frame(const StringModel& model, StringState& state) JAWARI_REALT
         restore_start(state);
         place_gaps(model, state);
     } while (true);
-    state.counters.steps += model.steps_per_frame;
-    state.excitation.elapsed += model.steps_per_frame;
+    state.counters.steps += model.shape->steps_per_frame;
+    state.excitation.elapsed += model.shape->steps_per_frame;
     if (state.near_frame.struck_count == 0) return false;
     state.certificate.outdated = true;
     run_impulses(model, state);

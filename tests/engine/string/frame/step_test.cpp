@@ -191,9 +191,9 @@ SceneDescription flexible_string(std::size_t modes, double rate_hz) {
 
 double displacement_at(const StringModel& model, const StringState& state, double x) {
     double u = 0;
-    for (std::size_t k = 0; k < model.mode_count; ++k) {
-        u += std::sqrt(2 / model.length_m) * std::sin(static_cast<double>(k + 1) * pi * x / model.length_m) *
-             state.displacement[k];
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
+        u += std::sqrt(2 / model.shape->length_m) *
+             std::sin(static_cast<double>(k + 1) * pi * x / model.shape->length_m) * state.displacement[k];
     }
     return u;
 }
@@ -279,10 +279,10 @@ TEST(Step, ContactsFromAboveMirrorContactsFromBelow) {
         for (int n = 0; n < 2000; ++n) {
             step(model_below, state_below);
             step(model_above, state_above);
-            for (std::size_t k = 0; k < model_below.mode_count; ++k) {
+            for (std::size_t k = 0; k < model_below.shape->mode_count; ++k) {
                 ASSERT_EQ(state_below.displacement[k], -state_above.displacement[k]) << n;
             }
-            for (std::size_t c = 0; c < model_below.contact_count; ++c) {
+            for (std::size_t c = 0; c < model_below.shape->contact_count; ++c) {
                 ASSERT_EQ(state_below.contact.impulse[c], state_above.contact.impulse[c]);
             }
         }
