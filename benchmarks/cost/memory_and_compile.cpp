@@ -42,8 +42,8 @@ void print_row(const char* name, const char* file, double contact_rate_hz) {
     const std::size_t with_state = heap_bytes();
     std::size_t modes = 0, contacts = 0;
     for (const StringModel& string : model.value().strings) {
-        modes += string.mode_count;
-        contacts += string.contact_count;
+        modes += string.shape->mode_count;
+        contacts += string.shape->contact_count;
     }
     const auto strings = static_cast<double>(model.value().strings.size());
     std::printf("| %s | %zu | %zu | %zu | %.3f | %.0f | %.0f | %.1f |\n", name, model.value().strings.size(),

@@ -59,10 +59,11 @@ void run_modes(std::size_t probes) {
     const SceneModel scene = compiled("lab/bass", 48000.0 * 64, ImpactLaw::Signorini);
     const StringModel& model = scene.strings[0];
     std::vector<const double*> rows;
-    for (std::size_t p = 0; p < probes; ++p) rows.push_back(model.contact_rows.data() + p * model.stride);
+    for (std::size_t p = 0; p < probes; ++p)
+        rows.push_back(model.shape->contact_rows.data() + p * model.shape->stride);
     AlignedVector<double> rates(std::max<std::size_t>(probes, 1) * 64);
     AlignedVector<double> lanes(std::max<std::size_t>(probes, 1) * kernels::steps_per_run * lane_padding);
-    AlignedVector<double> q = model.initial_displacement, v = model.initial_velocity;
+    AlignedVector<double> q = model.shape->initial_displacement, v = model.initial_velocity;
     kernels::ModeRun run = kernels::frame_run(model);
     run.probes = probes;
     run.probe_rows = rows.data();
@@ -78,10 +79,10 @@ void run_modes(std::size_t probes) {
 void fly() {
     const SceneModel scene = compiled("lab/bass", 2016000, ImpactLaw::Signorini);
     const StringModel& model = scene.strings[0];
-    AlignedVector<double> q(model.stride), v(model.stride);
+    AlignedVector<double> q(model.shape->stride), v(model.shape->stride);
     const auto once = [&] {
-        kernels::fly(model.stride, model.flight, model.initial_displacement.data(),
-                     model.initial_velocity.data(), q.data(), v.data());
+        kernels::fly(model.shape->stride, model.tuning.flight, model.shape->initial_displacement.data(),
+                     model.shape->initial_velocity.data(), q.data(), v.data());
     };
     once();
     counted(once);
@@ -90,10 +91,11 @@ void fly() {
 void row_products() {
     const SceneModel scene = compiled("lab/bass", 2016000, ImpactLaw::Signorini);
     const StringModel& model = scene.strings[0];
-    std::vector<double> out(model.contact_count);
+    std::vector<double> out(model.shape->contact_count);
     const auto once = [&] {
-        kernels::row_products(model.contact_count, model.stride, model.stride, model.contact_rows.data(),
-                              model.initial_displacement.data(), out.data());
+        kernels::row_products(model.shape->contact_count, model.shape->stride, model.shape->stride,
+                              model.shape->contact_rows.data(), model.shape->initial_displacement.data(),
+                              out.data());
     };
     once();
     counted(once);
@@ -102,10 +104,12 @@ void row_products() {
 void mode_bounds() {
     const SceneModel scene = compiled("lab/bass", 2016000, ImpactLaw::Signorini);
     const StringModel& model = scene.strings[0];
-    AlignedVector<double> speed(model.stride), extent(model.stride), detour(model.stride);
+    AlignedVector<double> speed(model.shape->stride), extent(model.shape->stride),
+        detour(model.shape->stride);
     const auto once = [&] {
-        kernels::mode_bounds(model.stride, model, model.initial_displacement.data(),
-                             model.initial_velocity.data(), speed.data(), extent.data(), detour.data());
+        kernels::mode_bounds(model.shape->stride, model, model.shape->initial_displacement.data(),
+                             model.shape->initial_velocity.data(), speed.data(), extent.data(),
+                             detour.data());
     };
     once();
     counted(once);
@@ -115,8 +119,8 @@ void mode_bounds() {
 void lcp() {
     const SceneModel scene = compiled("lab/bass", 2016000, ImpactLaw::Signorini);
     const StringModel& model = scene.strings[0];
-    const std::size_t n = model.contact_count;
-    const ContactOperator A{model.compliance.data(), model.contact_stride, nullptr};
+    const std::size_t n = model.shape->contact_count;
+    const ContactOperator A{model.shape->compliance.data(), model.shape->contact_stride, nullptr};
     std::vector<double> pressure(n), lambda(n), residual(n);
     for (std::size_t c = 0; c < n; ++c)
         pressure[c] = (c % 3 == 0 ? 1e-6 : -1e-6) * static_cast<double>(c + 1);

@@ -22,13 +22,14 @@ double dot(std::size_t n, const double* a, const double* b) {
 
 PowerLaw law_of(const StringModel& model, const ModalContactOptions& options) {
     double largest = 0;
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
-        const double* S = model.contact_rows.data() + c * model.stride;
+    for (std::size_t c = 0; c < model.shape->contact_count; ++c) {
+        const double* S = model.shape->contact_rows.data() + c * model.shape->stride;
         double inverse_mass = 0;
-        for (std::size_t k = 0; k < model.stride; ++k) inverse_mass += S[k] * S[k] * model.mobility[k];
+        for (std::size_t k = 0; k < model.shape->stride; ++k)
+            inverse_mass += S[k] * S[k] * model.shape->mobility[k];
         largest = std::max(largest, inverse_mass);
     }
-    const double h = model.step_s;
+    const double h = model.shape->step_s;
     return {options.relative_stiffness / (h * h * largest) /
                 std::pow(reference_penetration_m, options.exponent - 1),
             options.exponent};
@@ -39,38 +40,40 @@ template <class Contacts>
 class ModalString {
   public:
     ModalString(const StringModel& model, Contacts contacts) : model_(model), contacts_(std::move(contacts)) {
-        const std::size_t n = model.contact_count;
+        const std::size_t n = model.shape->contact_count;
         coupling_.resize(n * n);
-        std::vector<double> moved(model.stride);
+        std::vector<double> moved(model.shape->stride);
         for (std::size_t c = 0; c < n; ++c) {
-            for (std::size_t k = 0; k < model.stride; ++k) moved[k] = row(c)[k] * model.mobility[k];
+            for (std::size_t k = 0; k < model.shape->stride; ++k)
+                moved[k] = row(c)[k] * model.shape->mobility[k];
             for (std::size_t d = 0; d < n; ++d) {
-                coupling_[c * n + d] = model.step_s * model.step_s * dot(model.stride, row(d), moved.data());
+                coupling_[c * n + d] = model.shape->step_s * model.shape->step_s *
+                                       dot(model.shape->stride, row(d), moved.data());
             }
         }
     }
 
     void start() {
-        const std::size_t n = model_.contact_count;
-        q_.assign(model_.initial_displacement.begin(), model_.initial_displacement.end());
-        v_.assign(model_.initial_velocity.begin(), model_.initial_velocity.end());
+        const std::size_t n = model_.shape->contact_count;
+        q_.assign(model_.shape->initial_displacement.begin(), model_.shape->initial_displacement.end());
+        v_.assign(model_.shape->initial_velocity.begin(), model_.shape->initial_velocity.end());
         now_.resize(n);
         before_.resize(n);
         free_.resize(n);
         force_.assign(n, 0);
         for (std::size_t c = 0; c < n; ++c) {
-            now_[c] = model_.contact_height[c] - dot(model_.stride, row(c), q_.data());
-            before_[c] = now_[c] + model_.step_s * dot(model_.stride, row(c), v_.data());
+            now_[c] = model_.shape->contact_height[c] - dot(model_.shape->stride, row(c), q_.data());
+            before_[c] = now_[c] + model_.shape->step_s * dot(model_.shape->stride, row(c), v_.data());
         }
         contacts_.start(now_);
     }
 
     void step() {
-        const std::size_t modes = model_.stride, n = model_.contact_count;
-        const double h = model_.step_s;
-        const double* carry = model_.carry.data();
-        const double* change = model_.change.data();
-        const double* restoring = model_.restoring.data();
+        const std::size_t modes = model_.shape->stride, n = model_.contact_count;
+        const double h = model_.shape->step_s;
+        const double* carry = model_.shape->carry.data();
+        const double* change = model_.shape->change.data();
+        const double* restoring = model_.tuning.restoring.data();
         double* q = q_.data();
         double* v = v_.data();
 #pragma omp simd
@@ -84,7 +87,7 @@ class ModalString {
             if (force_[c] == 0) continue;
             pushed = true;
             const double* S = row(c);
-            const double* mobility = model_.mobility.data();
+            const double* mobility = model_.shape->mobility.data();
             const double impulse = h * force_[c];
 #pragma omp simd
             for (std::size_t k = 0; k < modes; ++k) v[k] += mobility[k] * S[k] * impulse;
@@ -101,15 +104,16 @@ class ModalString {
     }
 
     [[nodiscard]] std::size_t probes() const {
-        return model_.probes.size();
+        return model_.shape->probes.size();
     }
     [[nodiscard]] double probe(std::size_t p) const {
-        return dot(model_.stride, model_.probe_rows.data() + p * model_.stride, q_.data());
+        return dot(model_.shape->stride, model_.shape->probe_rows.data() + p * model_.shape->stride,
+                   q_.data());
     }
 
   private:
     [[nodiscard]] const double* row(std::size_t c) const {
-        return model_.contact_rows.data() + c * model_.stride;
+        return model_.shape->contact_rows.data() + c * model_.shape->stride;
     }
 
     const StringModel& model_;
@@ -132,7 +136,7 @@ benchmarks::Trajectory run_modal(const SceneDescription& scene, double duration_
     benchmarks::Trajectory result;
     for (const StringModel& string : model.strings) {
         strings.emplace_back(string, contacts_of(string));
-        result.unknowns += string.mode_count;
+        result.unknowns += string.shape->mode_count;
     }
     result.compile_s = host::thread_cpu_s() - compile_start;
     result.rows = static_cast<std::size_t>(std::llround(duration_s * scene.output_rate_hz)) + 1;
@@ -162,12 +166,12 @@ benchmarks::Trajectory run_penalty(const SceneDescription& scene, double duratio
                                    const benchmarks::Repetition& repetition) {
     return run_modal<HuntCrossleyContacts>(scene, duration_s, repetition, [&](const StringModel& model) {
         std::vector<double> damping;
-        for (const double e : model.contact_restitution) {
+        for (const double e : model.shape->contact_restitution) {
             const double reachable = std::max(e, smallest_restitution);
             damping.push_back(reachable < 1 ? damping_of_restitution(reachable, options.restitution_speed)
                                             : 0);
         }
-        return HuntCrossleyContacts(law_of(model, options), std::move(damping), model.step_s);
+        return HuntCrossleyContacts(law_of(model, options), std::move(damping), model.shape->step_s);
     });
 }
 
@@ -175,7 +179,7 @@ benchmarks::Trajectory run_quadratised_modal(const SceneDescription& scene, doub
                                              const ModalContactOptions& options,
                                              const benchmarks::Repetition& repetition) {
     return run_modal<QuadratisedContacts>(scene, duration_s, repetition, [&](const StringModel& model) {
-        return QuadratisedContacts(law_of(model, options), model.contact_count, Auxiliary::PerContact);
+        return QuadratisedContacts(law_of(model, options), model.shape->contact_count, Auxiliary::PerContact);
     });
 }
 

@@ -71,12 +71,13 @@ struct RunOfModes {
     const StringModel& model = bass();
     std::vector<const double*> rows;
     AlignedVector<double> rates, impulses, lanes;
-    AlignedVector<double> q = model.initial_displacement, v = model.initial_velocity;
+    AlignedVector<double> q = model.shape->initial_displacement, v = model.shape->initial_velocity;
     kernels::ModeRun run = kernels::frame_run(model);
 
     RunOfModes(std::size_t drivers, std::size_t probes) {
         const std::size_t count = std::max<std::size_t>(drivers + probes, 1);
-        for (std::size_t p = 0; p < count; ++p) rows.push_back(model.contact_rows.data() + p * model.stride);
+        for (std::size_t p = 0; p < count; ++p)
+            rows.push_back(model.shape->contact_rows.data() + p * model.shape->stride);
         rates.assign(count * run_steps, 0.0);
         impulses.assign(count * run_steps, 1e-12);
         lanes.assign(count * kernels::steps_per_run * lane_padding, 0.0);
@@ -95,13 +96,14 @@ struct RunOfModes {
 
     void measure(benchmark::State& state) {
         for (auto _ : state) {
-            std::copy(model.initial_displacement.begin(), model.initial_displacement.end(), q.begin());
-            std::copy(model.initial_velocity.begin(), model.initial_velocity.end(), v.begin());
+            std::copy(model.shape->initial_displacement.begin(), model.shape->initial_displacement.end(),
+                      q.begin());
+            std::copy(model.shape->initial_velocity.begin(), model.shape->initial_velocity.end(), v.begin());
             kernels::run_modes(run);
             benchmark::DoNotOptimize(rates.data());
             benchmark::ClobberMemory();
         }
-        const double mode_steps = static_cast<double>(model.stride * run_steps);
+        const double mode_steps = static_cast<double>(model.shape->stride * run_steps);
         report(state, mode_steps, mode_steps * static_cast<double>(3 + run.drivers + run.probes));
     }
 };
@@ -119,39 +121,43 @@ void run_impulses(benchmark::State& state) {
 /// One frame of free flight.
 void fly(benchmark::State& state) {
     const StringModel& model = bass();
-    AlignedVector<double> q(model.stride), v(model.stride);
+    AlignedVector<double> q(model.shape->stride), v(model.shape->stride);
     for (auto _ : state) {
-        benchmark::DoNotOptimize(kernels::fly(model.stride, model.flight, model.initial_displacement.data(),
-                                              model.initial_velocity.data(), q.data(), v.data()));
+        benchmark::DoNotOptimize(kernels::fly(model.shape->stride, model.tuning.flight,
+                                              model.shape->initial_displacement.data(),
+                                              model.shape->initial_velocity.data(), q.data(), v.data()));
         benchmark::ClobberMemory();
     }
-    report(state, static_cast<double>(model.stride), 8 * static_cast<double>(model.stride));
+    report(state, static_cast<double>(model.shape->stride), 8 * static_cast<double>(model.shape->stride));
 }
 
 /// The gaps of all 20 frets.
 void row_products(benchmark::State& state) {
     const StringModel& model = bass();
-    std::vector<double> out(model.contact_count);
+    std::vector<double> out(model.shape->contact_count);
     for (auto _ : state) {
-        kernels::row_products(model.contact_count, model.stride, model.stride, model.contact_rows.data(),
-                              model.initial_displacement.data(), out.data());
+        kernels::row_products(model.shape->contact_count, model.shape->stride, model.shape->stride,
+                              model.shape->contact_rows.data(), model.shape->initial_displacement.data(),
+                              out.data());
         benchmark::DoNotOptimize(out.data());
         benchmark::ClobberMemory();
     }
-    report(state, static_cast<double>(model.stride), static_cast<double>(model.contact_count * model.stride));
+    report(state, static_cast<double>(model.shape->stride),
+           static_cast<double>(model.shape->contact_count * model.shape->stride));
 }
 
 /// All bounds of the certificate, per mode.
 void mode_bounds(benchmark::State& state) {
     const StringModel& model = bass();
-    AlignedVector<double> speed(model.stride), extent(model.stride), detour(model.stride);
+    AlignedVector<double> speed(model.shape->stride), extent(model.shape->stride),
+        detour(model.shape->stride);
     for (auto _ : state) {
-        benchmark::DoNotOptimize(kernels::mode_bounds(model.stride, model, model.initial_displacement.data(),
-                                                      model.initial_velocity.data(), speed.data(),
-                                                      extent.data(), detour.data()));
+        benchmark::DoNotOptimize(kernels::mode_bounds(
+            model.shape->stride, model, model.shape->initial_displacement.data(),
+            model.shape->initial_velocity.data(), speed.data(), extent.data(), detour.data()));
         benchmark::ClobberMemory();
     }
-    report(state, static_cast<double>(model.stride), 23 * static_cast<double>(model.stride));
+    report(state, static_cast<double>(model.shape->stride), 23 * static_cast<double>(model.shape->stride));
 }
 
 BENCHMARK(fma_peak);

@@ -38,7 +38,7 @@ Trajectory run_engine(const SceneDescription& scene, double duration_s, const Sk
     result.rows = static_cast<std::size_t>(std::llround(duration_s * model.output_rate_hz)) + 1;
     result.probes = model.probe_count;
     result.samples.resize(result.rows * result.probes);
-    for (const StringModel& string : model.strings) result.unknowns += string.mode_count;
+    for (const StringModel& string : model.strings) result.unknowns += string.shape->mode_count;
     std::optional<SceneState> state;
     result.render_s = least_cpu_s(
         repetition, [&] { state = make_state(model, Metering::Off, skipping); },

@@ -75,9 +75,9 @@ struct Performance {
                                    {Quantity::Energy, 0, 0}};
         model = compile(scene).value();
         state = make_state(model, metering, skipping);
-        force_row.assign(model.strings[0].stride, 0.0);
-        for (std::size_t k = 0; k < model.strings[0].mode_count; ++k)
-            force_row[k] = mode_shape(k + 1, 0.1, model.strings[0].length_m);
+        force_row.assign(model.strings[0].shape->stride, 0.0);
+        for (std::size_t k = 0; k < model.strings[0].shape->mode_count; ++k)
+            force_row[k] = mode_shape(k + 1, 0.1, model.strings[0].shape->length_m);
         samples.assign(model.probe_count * block, 0.0);
         for (std::size_t p = 0; p < model.probe_count; ++p) outputs.push_back(samples.data() + p * block);
     }
@@ -88,7 +88,7 @@ struct Performance {
         for (int n = 0; n < 6; ++n) render(model, state, outputs, block);
         move_contact(string_model, string, 5, 1e-3, 100);
         clear_excitation(string);
-        add_force(string, force_row.data(), string_model.stride, 0.1, 1e-4);
+        add_force(string, force_row.data(), string_model.shape->stride, 0.1, 1e-4);
         for (int n = 0; n < 3; ++n) render(model, state, outputs, block);
         // A solve without room is truncated; the workspace only shrinks.
         string.lcp.capacity = 1;

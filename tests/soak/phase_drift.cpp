@@ -61,7 +61,7 @@ struct Closed {
 /// The motion that has these values of q and of the backward velocity at t = 0: what the state holds, and no
 /// rounding of the start is counted.
 Closed closed_form(const StringModel& model, const StringState& start, std::size_t k) {
-    const Real omega = model.omega[k], sigma = model.sigma[k], h = model.step_s;
+    const Real omega = model.tuning.omega[k], sigma = model.sigma[k], h = model.step_s;
     Closed closed{sqrt((omega - sigma) * (omega + sigma)), sigma, start.displacement[k], 0};
     const Real before = Real(start.displacement[k]) - h * Real(start.velocity[k]);
     closed.imaginary = (before * exp(-sigma * h) - closed.real * cos(closed.W * h)) / sin(closed.W * h);
@@ -71,7 +71,7 @@ Closed closed_form(const StringModel& model, const StringState& start, std::size
 /// Errors along and across the circle on which (q, v/W) turns.
 ModeDrift drift_of(const StringModel& model, const StringState& state, const Closed& closed, std::size_t k,
                    std::uint64_t steps) {
-    const Real h = model.step_s;
+    const Real h = model.shape->step_s;
     const Real t = h * steps;
     const Real q = closed.displacement(t);
     const Real v = (q - closed.displacement(t - h)) / h;
@@ -80,8 +80,8 @@ ModeDrift drift_of(const StringModel& model, const StringState& state, const Clo
     const Real v_error = Real(state.velocity[k]) - v;
     const Real W = closed.W;
     ModeDrift drift;
-    drift.frequency_hz = model.omega[k] / (2 * std::numbers::pi);
-    drift.decay_per_s = model.sigma[k];
+    drift.frequency_hz = model.tuning.omega[k] / (2 * std::numbers::pi);
+    drift.decay_per_s = model.shape->sigma[k];
     drift.phase_rad = static_cast<double>((q_error * v / W - v_error / W * q) / (A * A));
     drift.amplitude = static_cast<double>((q_error * q + v_error / W * v / W) / (A * A));
     return drift;
@@ -110,7 +110,7 @@ PhaseDrift run_phase_drift(std::uint64_t steps, Advance advance,
     const StringModel& model = scene.strings[0];
     StringState state = make_string_state(model);
     std::vector<Closed> closed;
-    for (std::size_t k = 0; k < model.mode_count; ++k) closed.push_back(closed_form(model, state, k));
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k) closed.push_back(closed_form(model, state, k));
 
     const std::uint64_t frames = steps / steps_per_frame;
     std::uint64_t done = 0;
@@ -126,7 +126,7 @@ PhaseDrift run_phase_drift(std::uint64_t steps, Advance advance,
     PhaseDrift drift;
     drift.steps = done * steps_per_frame;
     drift.contact_rate_hz = scene.contact_rate_hz;
-    for (std::size_t k = 0; k < model.mode_count; ++k)
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k)
         drift.modes.push_back(drift_of(model, state, closed[k], k, drift.steps));
     return drift;
 }

@@ -28,11 +28,11 @@ bool takes_part(const HostileScene& hostile, bool of_tables) {
 /// Whether no contact was closed a step before the start. A motion that would have come through an obstacle
 /// has no past that the laws' proofs could begin with.
 bool has_a_past(const StringModel& model, const StringState& state) {
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
-        double gap_before = -model.contact_height[c];
-        for (std::size_t k = 0; k < model.mode_count; ++k)
-            gap_before += model.contact_rows.data()[c * model.stride + k] *
-                          (state.displacement[k] - model.step_s * state.velocity[k]);
+    for (std::size_t c = 0; c < model.shape->contact_count; ++c) {
+        double gap_before = -model.shape->contact_height[c];
+        for (std::size_t k = 0; k < model.shape->mode_count; ++k)
+            gap_before += model.shape->contact_rows.data()[c * model.shape->stride + k] *
+                          (state.displacement[k] - model.shape->step_s * state.velocity[k]);
         if (gap_before < 0) return false;
     }
     return true;
@@ -48,7 +48,7 @@ void step_under_law(SceneDescription scene, double height_m, LawRecord& record) 
     StringState state = make_string_state(model, Metering::Step);
     const double start_J = energy(model, state);
     if (!(start_J > 0 && start_J < 1e100 && has_a_past(model, state))) return;
-    const double work = static_cast<double>((model.mode_count + 8) * (model.contact_count + 6));
+    const double work = static_cast<double>((model.shape->mode_count + 8) * (model.shape->contact_count + 6));
     const auto steps = static_cast<std::size_t>(std::min(most_steps, work_of_string / work));
     for (std::size_t n = 0; n < steps && state.energy.highest < 1e120 * start_J; ++n) step(model, state);
     if (state.counters.impulses == 0) return;

@@ -107,7 +107,7 @@ void count(const Stage& stage, const InstrumentState& state, Report& report) {
     report.notes = state.counters.notes + state.counters.legato_notes;
     report.sound_s = static_cast<double>(report.frames) / stage.model.output_rate_hz;
     for (const InstrumentStringModel& string : stage.model.strings)
-        report.contacts += string.stopped.front().string.contact_count;
+        report.contacts += string.stopped.front().string.shape->contact_count;
 }
 
 void play(const Stage& stage, Report& report) {

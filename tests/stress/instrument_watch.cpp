@@ -35,11 +35,12 @@ double moved_since(const PlayerWork& before, const PlayerWork& now) {
 
 ContactReach contact_reach(const StringModel& model) {
     ContactReach largest;
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
-        const std::span<const double> row{model.contact_rows.data() + c * model.stride, model.stride};
+    for (std::size_t c = 0; c < model.shape->contact_count; ++c) {
+        const std::span<const double> row{model.shape->contact_rows.data() + c * model.shape->stride,
+                                          model.shape->stride};
         largest.impulse = std::max(largest.impulse, 2 / kick_of(model, row));
         largest.extent = std::max(largest.extent, reach_of(model, row).extent);
-        largest.height_m = std::max(largest.height_m, std::abs(model.contact_height[c]));
+        largest.height_m = std::max(largest.height_m, std::abs(model.shape->contact_height[c]));
     }
     return largest;
 }
@@ -175,7 +176,8 @@ void InstrumentWatch::add_bounds(const InstrumentState& state, std::size_t s, st
     double signal = 0;
     for (std::size_t i = 0; i < model_.pickups.size(); ++i) {
         const PickupDescription& pickup = model_.pickups[i];
-        const Reach reach = reach_of(model, {stopped.pickup_rows.data() + i * model.stride, model.stride});
+        const Reach reach =
+            reach_of(model, {stopped.pickup_rows.data() + i * model.shape->stride, model.shape->stride});
         const bool of_velocity = pickup.quantity == PickupQuantity::Velocity;
         double most = of_velocity ? bound_of(reach.speed, energy_J)
                                   : bound_of(reach.extent, energy_J) + std::abs(stopped.pickup_rest[i]);
@@ -185,7 +187,7 @@ void InstrumentWatch::add_bounds(const InstrumentState& state, std::size_t s, st
     bounds.left += std::abs(voice.gains.level * voice.gains.left) * signal;
     bounds.right += std::abs(voice.gains.level * voice.gains.right) * signal;
     if (model_.body.count == 0) return;
-    const Reach reach = reach_of(model, {stopped.bridge_row.data(), model.stride});
+    const Reach reach = reach_of(model, {stopped.bridge_row.data(), model.shape->stride});
     bounds.bridge_N += std::abs(voice.gains.level * voice.gains.body) *
                        (bound_of(reach.extent, energy_J) + std::abs(stopped.bridge_rest_N));
 }

@@ -20,7 +20,7 @@ constexpr double largest_relative_residual = 1e-6;
 
 double operations(const StringModel& model) {
     // Sums over N modes round at most N/2 times in a row (two lanes or more); some twenty operations a mode.
-    return 20 + static_cast<double>(model.mode_count) / 2;
+    return 20 + static_cast<double>(model.shape->mode_count) / 2;
 }
 
 double step_rounding(const StringModel& model) {
@@ -40,16 +40,16 @@ double kick_rounding(const StringModel& model, double kicks, double highest_J) {
 }
 
 double work_rounding(const StringModel& model, double impulses_Ns, double length_m) {
-    return impulses_Ns > 0 ? eps * operations(model) * impulses_Ns * length_m / model.step_s : 0.0;
+    return impulses_Ns > 0 ? eps * operations(model) * impulses_Ns * length_m / model.shape->step_s : 0.0;
 }
 
 double residual_work(const StringModel& model, double impulses_Ns, double residual_m) {
-    return impulses_Ns * residual_m / model.step_s;
+    return impulses_Ns * residual_m / model.shape->step_s;
 }
 
 double gap_rounding_share(const StringModel& model) {
-    const double steps = static_cast<double>(model.steps_per_frame);
-    return eps * (1024 + static_cast<double>(model.mode_count) + 2 * steps);
+    const double steps = static_cast<double>(model.shape->steps_per_frame);
+    return eps * (1024 + static_cast<double>(model.shape->mode_count) + 2 * steps);
 }
 
 double depth_of_law(ImpactLaw law, double restitution, double travel) {

@@ -15,14 +15,14 @@ constexpr double work_of_block = 4e7;
 
 void apply_force(const ForceAction& force, const StringModel& model, double height_m, std::size_t frames,
                  StringState& state) {
-    const AlignedVector<double> row = shape_row(model, force.place * model.length_m);
+    const AlignedVector<double> row = shape_row(model, force.place * model.shape->length_m);
     const double compliance = std::pow(reach_of(model, row).middle, 2) / 2;  // u/F at rest [m/N]
     if (!(compliance > 0) || !std::isfinite(1 / compliance)) return;
     const double newtons_per_lift = height_m / compliance;
-    const double steps = static_cast<double>(frames * model.steps_per_frame);
+    const double steps = static_cast<double>(frames * model.shape->steps_per_frame);
     // Forces that ramp must be set together: one that ramps stands alone.
     if (force.instead || force.growth != 0 || state.excitation.ramps) clear_excitation(state);
-    add_force(state, row.data(), model.stride, force.lift * newtons_per_lift,
+    add_force(state, row.data(), model.shape->stride, force.lift * newtons_per_lift,
               force.growth * newtons_per_lift / steps);
 }
 
@@ -37,7 +37,7 @@ ScenePlaying::ScenePlaying(const HostileScene& hostile, const SceneModel& model,
       ramps_(hostile.metering == Metering::Step) {
     double work = 0;
     for (const StringModel& string : model.strings)
-        work += static_cast<double>((string.mode_count + 8) * (string.contact_count + 6));
+        work += static_cast<double>((string.shape->mode_count + 8) * (string.shape->contact_count + 6));
     work *= static_cast<double>(model.steps_per_frame);
     most_frames_ = static_cast<std::size_t>(std::clamp(work_of_block / work, 1.0, 512.0));
 }
@@ -78,11 +78,11 @@ void act(const PlayedBlock& block, const SceneModel& model, double height_m, Sce
         apply_force(force, model.strings[force.string], height_m, block.frames, state.strings[force.string]);
     for (const MoveAction& move : block.moves) {
         const StringModel& string = model.strings[move.string];
-        if (string.contact_of_description.empty()) continue;
-        const std::size_t contact = move.contact % string.contact_of_description.size();
-        const std::ptrdiff_t kept = string.contact_of_description[contact];
+        if (string.shape->contact_of_description.empty()) continue;
+        const std::size_t contact = move.contact % string.shape->contact_of_description.size();
+        const std::ptrdiff_t kept = string.shape->contact_of_description[contact];
         if (kept < 0) continue;
-        const Side side = string.contact_side[static_cast<std::size_t>(kept)];
+        const Side side = string.shape->contact_side[static_cast<std::size_t>(kept)];
         const double sign = side == Side::Below ? 1.0 : -1.0;
         move_contact(string, state.strings[move.string], contact, sign * move.height * height_m, move.steps);
     }

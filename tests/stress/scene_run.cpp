@@ -68,7 +68,7 @@ void play_checked(const Stage& stage, Report& report, SceneState& state, Sound& 
         }
         std::size_t first_probe = 0;
         for (std::size_t s = 0; s < watches.size(); ++s) {
-            const std::size_t probes = stage.model.strings[s].probes.size();
+            const std::size_t probes = stage.model.strings[s].shape->probes.size();
             watches[s].end_block(state.strings[s], tail_of(sound, first_probe, probes, block.frames),
                                  report.judge);
             first_probe += probes;
@@ -118,7 +118,7 @@ void count(const HostileScene& hostile, const SceneModel& model, const SceneStat
     report.strings = model.strings.size();
     report.sound_s = static_cast<double>(report.frames) / hostile.description.output_rate_hz;
     for (std::size_t s = 0; s < model.strings.size(); ++s) {
-        report.contacts += model.strings[s].contact_count;
+        report.contacts += model.strings[s].shape->contact_count;
         report.impulses += state.strings[s].counters.impulses;
         report.truncated += state.strings[s].counters.truncated_solves;
     }

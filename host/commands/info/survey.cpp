@@ -33,8 +33,8 @@ StringSurvey survey_string(const InstrumentDescription& instrument, const Instru
     survey.frets = frets.count;
     const int rise = frets.semitones.empty() ? static_cast<int>(frets.count) : frets.semitones.back();
     survey.highest_note = string.open_note + rise;
-    survey.modes = model.stopped.front().string.mode_count;
-    survey.contacts = model.stopped.front().string.contact_count;
+    survey.modes = model.stopped.front().string.shape->mode_count;
+    survey.contacts = model.stopped.front().string.shape->contact_count;
     return survey;
 }
 

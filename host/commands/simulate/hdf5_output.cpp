@@ -44,7 +44,7 @@ bool write_contacts(hid_t group, const StringDescription& string, const StringMo
         height.push_back(string.contacts[c].height_m);
         restitution.push_back(string.contacts[c].restitution);
         side.push_back(word(string.contacts[c].side));
-        takes_part.push_back(model.contact_of_description[c] >= 0 ? 1 : 0);
+        takes_part.push_back(model.shape->contact_of_description[c] >= 0 ? 1 : 0);
     }
     return hdf5::write_vector(group, "contact_position_m", position) &&
            hdf5::write_vector(group, "contact_height_m", height) &&
@@ -61,8 +61,9 @@ std::vector<double> first_modes(const AlignedVector<double>& values, std::size_t
 
 bool write_modes(hid_t group, const StringModel& model) {
     constexpr double per_turn = 1 / 6.283185307179586476925286766559;
-    return hdf5::write_vector(group, "frequency_hz", first_modes(model.omega, model.mode_count, per_turn)) &&
-           hdf5::write_vector(group, "decay_per_s", first_modes(model.sigma, model.mode_count));
+    return hdf5::write_vector(group, "frequency_hz",
+                              first_modes(model.tuning.omega, model.shape->mode_count, per_turn)) &&
+           hdf5::write_vector(group, "decay_per_s", first_modes(model.shape->sigma, model.shape->mode_count));
 }
 
 bool create_string(hid_t parent, std::size_t index, const StringDescription& string, const StringModel& model,
@@ -85,7 +86,7 @@ bool create_string(hid_t parent, std::size_t index, const StringDescription& str
            set_attribute(group, "length_m", string.length_m) &&
            set_attribute(group, "linear_density_kg_per_m", string.linear_density_kg_per_m) &&
            set_attribute(group, "start", word(string.initial.start)) &&
-           set_attribute(group, "modes", std::uint64_t{model.mode_count}) &&
+           set_attribute(group, "modes", std::uint64_t{model.shape->mode_count}) &&
            write_contacts(group, string, model) && write_modes(group, model);
 }
 
@@ -212,7 +213,7 @@ MaybeError Hdf5Output::write_final(const SceneModel& model, const SceneState& st
     errno = 0;
     for (std::size_t s = 0; s < model.strings.size(); ++s) {
         const hid_t group = tables_->strings[s].group.id();
-        const std::size_t modes = model.strings[s].mode_count;
+        const std::size_t modes = model.strings[s].shape->mode_count;
         const bool written = hdf5::write_vector(group, "final_modal_displacement",
                                                 first_modes(state.strings[s].displacement, modes)) &&
                              hdf5::write_vector(group, "final_modal_velocity",

@@ -22,7 +22,7 @@ std::uint64_t divide_up(std::uint64_t a, std::uint64_t b) {
 
 std::vector<std::uint64_t> choose_snapshot_rows(const StringModel& string, double output_rate_hz,
                                                 std::uint64_t last_row) {
-    const double period_rows = 6.283185307179586 / string.omega[0] * output_rate_hz;
+    const double period_rows = 6.283185307179586 / string.tuning.omega[0] * output_rate_hz;
     const double span = std::min(period_rows, static_cast<double>(last_row));
     std::vector<std::uint64_t> rows;
     for (std::size_t i = 0; i < snapshots; ++i)
@@ -44,8 +44,8 @@ std::vector<double> shape_of(const StringModel& string, const StringState& state
     std::vector<double> shape;
     for (const double x : grid) {
         double sum = 0;
-        for (std::size_t k = 0; k < string.mode_count; ++k)
-            sum += mode_shape(k + 1, x, string.length_m) * state.displacement[k];
+        for (std::size_t k = 0; k < string.shape->mode_count; ++k)
+            sum += mode_shape(k + 1, x, string.shape->length_m) * state.displacement[k];
         shape.push_back(sum);
     }
     return shape;

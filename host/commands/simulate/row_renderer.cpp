@@ -18,13 +18,14 @@ namespace {
 std::size_t rows_between_polls(const SceneModel& model) {
     double per_step = 1;
     for (const StringModel& string : model.strings)
-        per_step += static_cast<double>(string.mode_count) * static_cast<double>(10 + string.contact_count);
+        per_step += static_cast<double>(string.shape->mode_count) *
+                    static_cast<double>(10 + string.shape->contact_count);
     const double per_row = per_step * static_cast<double>(model.steps_per_frame);
     return static_cast<std::size_t>(std::clamp(2e8 / per_row, 1.0, 256.0));
 }
 
 void append_contacts(const StringModel& model, const StringState& state, StringRows& rows) {
-    for (const std::ptrdiff_t index : model.contact_of_description) {
+    for (const std::ptrdiff_t index : model.shape->contact_of_description) {
         const bool kept = index >= 0;
         const auto c = static_cast<std::size_t>(std::max<std::ptrdiff_t>(index, 0));
         rows.gap_m.push_back(kept ? state.contact.gap[c] : std::numeric_limits<double>::quiet_NaN());
@@ -101,7 +102,7 @@ void RowRenderer::render_rows(std::size_t offset, std::size_t count) {
 void RowRenderer::write_last_row(std::size_t offset) {
     std::size_t output = 0;
     for (std::size_t s = 0; s < model_.strings.size(); ++s)
-        for (std::size_t p = 0; p < model_.strings[s].probes.size(); ++p)
+        for (std::size_t p = 0; p < model_.strings[s].shape->probes.size(); ++p)
             block_.probes[output++][offset] =
                 probe_value(model_.strings[s], state_.strings[s], p, 1 / model_.output_rate_hz);
 }

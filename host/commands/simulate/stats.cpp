@@ -12,10 +12,10 @@ namespace {
 StringStats collect_string(const StringDescription& described, const StringModel& model,
                            const StringState& state) {
     StringStats stats;
-    stats.name = model.name;
+    stats.name = model.shape->name;
     stats.start = described.initial.start;
-    stats.modes = model.mode_count;
-    stats.contacts = model.contact_count;
+    stats.modes = model.shape->mode_count;
+    stats.contacts = model.shape->contact_count;
     stats.counters = state.counters;
     stats.initial_energy_J = state.energy.initial;
     stats.final_energy_J = energy(model, state);

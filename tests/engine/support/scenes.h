@@ -108,8 +108,9 @@ inline StringModel compiled_string(const SceneDescription& scene) {
 
 /// phi_k(x) of all modes, padded.
 inline AlignedVector<double> shape_row(const StringModel& model, double x) {
-    AlignedVector<double> row(model.stride, 0.0);
-    for (std::size_t k = 0; k < model.mode_count; ++k) row[k] = mode_shape(k + 1, x, model.length_m);
+    AlignedVector<double> row(model.shape->stride, 0.0);
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k)
+        row[k] = mode_shape(k + 1, x, model.shape->length_m);
     return row;
 }
 
@@ -117,7 +118,7 @@ inline AlignedVector<double> shape_row(const StringModel& model, double x) {
 inline void press(const StringModel& model, StringState& state, double x, double force_N, double rate_N = 0) {
     const AlignedVector<double> row = shape_row(model, x);
     clear_excitation(state);
-    add_force(state, row.data(), model.stride, force_N, rate_N);
+    add_force(state, row.data(), model.shape->stride, force_N, rate_N);
 }
 
 }  // namespace jawari::test

@@ -1,13 +1,14 @@
 // The compiled scene: every coefficient that rendering needs, never changed after compile().
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "jawari/detail/aligned.h"
-#include "jawari/detail/shared_array.h"
 #include "jawari/scene/description.h"
 
 namespace jawari {
@@ -21,40 +22,46 @@ struct FlightModel {
     AlignedVector<double> q_held, v_held, q_ramp, v_ramp;
 };
 
-/// Weights of the gap certificate (docs/engine/certificate.md). Arrays over modes unless said otherwise.
-struct CertificateModel {
+/// Weights of the gap certificate that hold at one tension (docs/engine/certificate.md). Arrays over modes
+/// unless said otherwise.
+struct CertificateTuning {
     AlignedVector<double> stiffness;  ///< kappa = 4d/((1+e+A) h^2): r^2 = v^2 + kappa (q - h v/2)^2 [1/s^2]
     AlignedVector<double> extent;     ///< |q| <= extent r [s]
     AlignedVector<double>
         detour;  ///< q leaves the line between its values at a frame's ends by <= detour r [s]
     AlignedVector<double> kick;  ///< rho w/mu: what an impulse on phi = 1 adds to r at most [1/kg m]
-    std::vector<std::size_t> group_begin;  ///< first contact of each group, and the contact count at the end
-    SharedArray<double> envelope;          ///< max over a group's contacts of |phi_k|, groups x stride
-    /// What 1 N s at contact c does to group g at most, groups x contact_count: how far a gap falls within a
-    /// frame [m/(N s)] where the model has a response table, else the speed it gets [1/kg].
-    std::vector<double> push;
-    /// `push` as a speed [1/kg] beside a `push` that is a path: for retuned strings, which have no response
-    /// table. Empty without a table, and with more than contacts_with_own_bounds contacts.
-    std::vector<double> push_speed;
-    double push_growth = 1;  ///< factor of all pushes after retuning
-    /// A gap of contact c falls by at most reach[c] sqrt(H) below -b_c, at any step, while the string's
-    /// energy is below H [m/J^(1/2)]. Empty if it is not known.
-    std::vector<double> reach;
-    double reach_growth = 1;  ///< factor of all reaches after retuning
-    double force_reach = 0;   ///< and within a frame by this for each newton held on points of it [m/N]
+    /// How far 1 N s at contact c lowers the gaps of group g within a frame at most [m/(N s)], groups x
+    /// contact_count; empty without a response table.
+    std::vector<double> push_path;
+    double push_growth = 1;   ///< factor of all CertificateShape::push_speed at this tension
+    double reach_growth = 1;  ///< factor of all CertificateShape::reach at this tension
+    double force_reach =
+        0;  ///< a gap falls within a frame by this for each newton held on points of it [m/N]
 };
 
-/// Arrays over modes have length `stride` (the mode count N padded by modes at rest); rows over contacts are
-/// `stride` apart.
-struct StringModel {
+/// What the gap certificate knows of the contacts, whatever the tension.
+struct CertificateShape {
+    std::vector<std::size_t> group_begin;  ///< first contact of each group, and the contact count at the end
+    AlignedVector<double> envelope;        ///< max over a group's contacts of |phi_k|, groups x stride
+    /// What 1 N s at contact c adds to the rate of the gaps of group g at most, at the compiled tension
+    /// [1/kg], groups x contact_count. Empty where push_path says more and it would be large: with a response
+    /// table and more than contacts_with_own_bounds contacts.
+    std::vector<double> push_speed;
+    /// A gap of contact c falls by at most reach[c] sqrt(H) below -b_c, at any step, while the string's
+    /// energy is below H, at the compiled tension [m/J^(1/2)]. Empty if it is not known.
+    std::vector<double> reach;
+};
+
+/// What a bend does not change: compile() makes it, and everything that plays the string shares it, read
+/// only. Arrays over modes have length `stride` (the mode count N padded by modes at rest); rows over
+/// contacts are `stride` apart.
+struct StringShape {
     std::string name;
     double length_m = 0;
     double linear_density_kg_per_m = 0;
     std::size_t mode_count = 0;  ///< N
     std::size_t stride = 0;      ///< padded(N)
 
-    // -- modes
-    AlignedVector<double> omega;  ///< omega_k [rad/s]; 0 in the padding
     AlignedVector<double> sigma;  ///< sigma_k [1/s]
 
     // -- time step (step_coefficients.h)
@@ -62,35 +69,18 @@ struct StringModel {
     double theta = 1;   ///< 1 for the exact scheme
     Scheme scheme = Scheme::Exact;
     ImpactLaw law = ImpactLaw::Signorini;
+    std::size_t steps_per_frame = 1;      ///< m
     AlignedVector<double> carry, change;  ///< e_k = carry + change
-    AlignedVector<double> restoring;      ///< -d_k/h [1/s]
     AlignedVector<double> mobility;       ///< w_k/mu [1/kg m]
-
-    // -- skipping; exact scheme only
-    std::size_t steps_per_frame = 1;  ///< m
-    FlightModel flight;
-    CertificateModel certificate;
-    /// Gap rates within a frame after an impulse of 1 N s [1/kg], rows of response_stride: one per pair of
-    /// contacts, or one per grid distance (response.h); empty where the table would be too large.
-    AlignedVector<double> response;
-    std::size_t response_stride = 0;  ///< padded(steps_per_frame)
-    /// The same step by step where frames have few steps (response.h): row [n][struck] over contacts,
-    /// contact_stride apart; else empty.
-    AlignedVector<double> step_response;
-    /// S^T where frames are short (short_frame.h), stride x contact_stride; else empty.
-    SharedArray<double> contact_columns;
-
-    // -- energy (energy.h): H = sum kinetic v^2 + potential (q - h v/2)^2, or + potential q^2 for the theta
-    // scheme
-    AlignedVector<double> kinetic;      ///< mu (1+e+A)/(8 w), or mu/2 for the theta scheme; 0 where w = 0
-    AlignedVector<double> potential;    ///< mu omega^2/2
     AlignedVector<double> dissipation;  ///< mu (1-e)/(4 w); for the theta scheme 2 mu sigma h; 0 where w = 0
 
     // -- contacts
     std::size_t contact_count = 0;   ///< contacts kept, <= those described
     std::size_t contact_stride = 0;  ///< padded(contact_count)
-    SharedArray<double>
+    AlignedVector<double>
         contact_rows;  ///< S: +phi_k(x_c) from below, -phi_k(x_c) from above; contact_count x stride
+    /// S^T where frames are short (short_frame.h), stride x contact_stride; else empty.
+    AlignedVector<double> contact_columns;
     std::vector<double> contact_height;  ///< b_c = +-h_c [m]: gap = S q - b
     /// What rounding may leave of a gap [m], the largest over the contacts: `signorini` and `paoli-schatzman`
     /// lift a contact that lies inside by this much a step (docs/engine/stability.md, "Gaps").
@@ -100,13 +90,15 @@ struct StringModel {
     std::vector<Side> contact_side;
     /// A = h theta D = h theta S diag(w/mu) S^T [m/(N s)]: contact_count x contact_stride, or by grid
     /// distance.
-    SharedArray<double> compliance;
+    AlignedVector<double> compliance;
     std::size_t grid_intervals = 0;        ///< M if all contacts lie at x = j L/M below the string, else 0
     std::vector<std::uint32_t> grid_node;  ///< j of each contact, empty without a grid
     std::vector<std::ptrdiff_t>
-        contact_of_description;  ///< model index of each described contact, -1 if dropped
+        contact_of_description;       ///< model index of each described contact, -1 if dropped
+    CertificateShape certificate;     ///< exact scheme only
+    std::size_t response_stride = 0;  ///< padded(steps_per_frame); exact scheme only
 
-    // -- initial state
+    // -- states of the string as compiled
     AlignedVector<double> initial_displacement;  ///< q
     AlignedVector<double> initial_velocity;      ///< backward velocity v
     AlignedVector<double> rest_displacement;     ///< q at rest against the obstacles; where a string with
@@ -116,6 +108,50 @@ struct StringModel {
     std::vector<ProbeDescription> probes;
     AlignedVector<double>
         probe_rows;  ///< phi_k(x) for displacement and velocity, zero for others; probes x stride
+};
+
+/// What holds at one tension only: compile() fills all of it, retuning (retune_kernel.h) what it can in one
+/// pass over the modes. Arrays over modes have length `stride`.
+struct StringTuning {
+    AlignedVector<double> omega;      ///< omega_k [rad/s]; 0 in the padding
+    AlignedVector<double> restoring;  ///< -d_k/h [1/s]
+
+    // -- energy (energy.h): H = sum kinetic v^2 + potential (q - h v/2)^2, or + potential q^2 for the theta
+    // scheme
+    AlignedVector<double> kinetic;    ///< mu (1+e+A)/(8 w), or mu/2 for the theta scheme; 0 where w = 0
+    AlignedVector<double> potential;  ///< mu omega^2/2
+
+    // -- skipping; exact scheme only
+    FlightModel flight;
+    CertificateTuning certificate;
+
+    // -- tables over contacts, which are too large to make anew at another tension: a bent string has none
+    /// Gap rates within a frame after an impulse of 1 N s [1/kg], rows of response_stride: one per pair of
+    /// contacts, or one per grid distance (response.h); empty where the table would be too large.
+    AlignedVector<double> response;
+    /// The same step by step where frames have few steps (response.h): row [n][struck] over contacts,
+    /// contact_stride apart; else empty.
+    AlignedVector<double> step_response;
+};
+
+/// The arrays over modes of a tuning: what retuning fills. The other members it leaves empty, or scales.
+inline std::array<AlignedVector<double>*, 16> mode_arrays(StringTuning& tuning) {
+    FlightModel& f = tuning.flight;
+    CertificateTuning& c = tuning.certificate;
+    return {&tuning.omega,   &tuning.restoring,
+            &tuning.kinetic, &tuning.potential,
+            &f.qq,           &f.qv,
+            &f.vq,           &f.vv,
+            &f.q_held,       &f.v_held,
+            &f.q_ramp,       &f.v_ramp,
+            &c.stiffness,    &c.extent,
+            &c.detour,       &c.kick};
+}
+
+/// A string at one tension. Copies share the shape.
+struct StringModel {
+    std::shared_ptr<const StringShape> shape;
+    StringTuning tuning;
 };
 
 struct SceneModel {

@@ -220,7 +220,7 @@ struct ShortFrameState {
     // -- state
     std::uint64_t gaps_at = unknown_frame;  ///< frame at whose start contact.gap and gap_before hold for all
     PivotTable table;
-    /// What StringModel::step_response is to a model that has none because its tension changes: rows of the
+    /// What StringTuning::step_response is to a string that has none because its tension changes: rows of the
     /// contacts in `response_known` hold until forget_responses(), short_frame.h.
     AlignedVector<double> step_response;
     std::vector<std::uint8_t> response_known;  ///< kernels::find_response(), forget_responses()
@@ -254,6 +254,9 @@ struct StringState {
     bool asleep = false;                 ///< refresh_bounds(), notice_change()
     bool leaves_obstacles = false;       ///< leave_obstacles(), reset()
     Skipping skipping;
+    /// Frames with a contact that may close evaluate only such contacts, if `skipping` lets them; false at a
+    /// tension for which it is not known how impulses push the others.
+    bool steps_near = true;
     Metering metering = Metering::Off;
     ExcitationState excitation;
     ContactState contact;

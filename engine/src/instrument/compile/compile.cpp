@@ -50,18 +50,19 @@ struct FreeString {
     AlignedVector<double> q, v, q_next, v_next;
 
     explicit FreeString(const StringModel& string)
-        : model(string), q(string.stride, 0.0), v(q), q_next(q), v_next(q) {}
+        : model(string), q(string.shape->stride, 0.0), v(q), q_next(q), v_next(q) {}
 
     void advance(const AlignedVector<double>& held) {
-        kernels::fly(model.stride, model.flight, q.data(), v.data(), q_next.data(), v_next.data());
-        kernels::add_force_response(model.stride, model.flight, held.data(), nullptr, 0, q_next.data(),
-                                    v_next.data());
+        kernels::fly(model.shape->stride, model.tuning.flight, q.data(), v.data(), q_next.data(),
+                     v_next.data());
+        kernels::add_force_response(model.shape->stride, model.tuning.flight, held.data(), nullptr, 0,
+                                    q_next.data(), v_next.data());
         q.swap(q_next);
         v.swap(v_next);
     }
     [[nodiscard]] double energy() const {
-        return kernels::energy(model.stride, model.kinetic.data(), model.potential.data(), model.step_s / 2,
-                               q.data(), v.data());
+        return kernels::energy(model.shape->stride, model.tuning.kinetic.data(),
+                               model.tuning.potential.data(), model.shape->step_s / 2, q.data(), v.data());
     }
 };
 
@@ -75,8 +76,8 @@ struct Calibration {
 Calibration calibrate_finger(const StoppedStringModel& stopped, const FingerDescription& finger, double x,
                              double width_m, double rate_hz, double excitation) {
     FreeString string(stopped.string);
-    AlignedVector<double> row(stopped.string.stride), held(stopped.string.stride);
-    write_point_row(stopped.string, stopped.string.stride, x, width_m, row.data());
+    AlignedVector<double> row(stopped.string.shape->stride), held(stopped.string.shape->stride);
+    write_point_row(stopped.string, stopped.string.shape->stride, x, width_m, row.data());
     const std::uint64_t rise = frames_of(finger.rise_s, rate_hz);
     const std::uint64_t release = frames_of(finger.release_s, rate_hz);
     double height_m = 0;
@@ -97,12 +98,12 @@ Calibration calibrate_finger(const StoppedStringModel& stopped, const FingerDesc
 /// The end moves by b: of the order of mu b'^2 L/2 goes into the string.
 double tangent_energy(const StoppedStringModel& stopped, const TangentDescription& tangent) {
     const double speed = tangent.full_height_m / tangent.rise_s;
-    return stopped.string.linear_density_kg_per_m * stopped.string.length_m * square(speed) / 2;
+    return stopped.string.shape->linear_density_kg_per_m * stopped.string.shape->length_m * square(speed) / 2;
 }
 
 void calibrate_exciters(StoppedStringModel& stopped, const InstrumentModel& model,
                         const InstrumentStringModel& string) {
-    const double length_m = stopped.string.length_m;
+    const double length_m = stopped.string.shape->length_m;
     double largest_J = 0;
     for (std::size_t i = 0; i < model.exciters.size(); ++i) {
         const ExciterDescription& exciter = model.exciters[i];
@@ -123,17 +124,17 @@ void calibrate_exciters(StoppedStringModel& stopped, const InstrumentModel& mode
     }
     stopped.rest_energy_J = rest_energy_ratio * largest_J;
     const StringModel& compiled = stopped.string;
-    const AlignedVector<double> still(compiled.stride, 0.0);
-    stopped.held_energy_J =
-        kernels::energy(compiled.stride, compiled.kinetic.data(), compiled.potential.data(),
-                        compiled.step_s / 2, compiled.rest_displacement.data(), still.data());
+    const AlignedVector<double> still(compiled.shape->stride, 0.0);
+    stopped.held_energy_J = kernels::energy(compiled.shape->stride, compiled.tuning.kinetic.data(),
+                                            compiled.tuning.potential.data(), compiled.shape->step_s / 2,
+                                            compiled.shape->rest_displacement.data(), still.data());
 }
 
 void find_action_contacts(StoppedStringModel& stopped, const InstrumentDescription& instrument,
                           std::size_t index, std::size_t fret) {
     const std::vector<bool> on_neck = contacts_on_neck(instrument, index, fret);
     for (std::size_t c = 0; c < on_neck.size(); ++c) {
-        const std::ptrdiff_t kept = stopped.string.contact_of_description[c];
+        const std::ptrdiff_t kept = stopped.string.shape->contact_of_description[c];
         if (on_neck[c] && kept >= 0) stopped.action_contacts.push_back(static_cast<std::uint32_t>(kept));
     }
 }

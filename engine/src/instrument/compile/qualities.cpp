@@ -10,7 +10,8 @@ namespace {
 
 bool have_same_contacts(const InstrumentStringModel& a, const InstrumentStringModel& b) {
     for (std::size_t fret = 0; fret < a.stopped.size(); ++fret) {
-        if (a.stopped[fret].string.contact_position != b.stopped[fret].string.contact_position) return false;
+        if (a.stopped[fret].string.shape->contact_position != b.stopped[fret].string.shape->contact_position)
+            return false;
     }
     return true;
 }

@@ -150,7 +150,7 @@ double exciter_force(const StringAtExciter& at, ExciterState& exciter) JAWARI_RE
 void begin_finger(const StringModel& model, ExciterState& exciter, double x, double width_m, double peak_N,
                   std::uint64_t rise_frames, std::uint64_t release_frames) JAWARI_REALTIME {
     begin(exciter, ExciterPhase::Finger);
-    write_point_row(model, model.stride, x, width_m, exciter.row.data());
+    write_point_row(model, model.shape->stride, x, width_m, exciter.row.data());
     exciter.peak = peak_N;
     exciter.rise_frames = rise_frames;
     exciter.release_frames = release_frames;
@@ -160,15 +160,17 @@ void begin_hammer(const StringModel& model, const StringState& string, ExciterSt
                   double width_m, const HammerDescription& hammer, double speed_m_per_s,
                   double hardness) JAWARI_REALTIME {
     begin(exciter, ExciterPhase::Hammer);
-    write_point_row(model, model.stride, x, width_m, exciter.row.data());
+    write_point_row(model, model.shape->stride, x, width_m, exciter.row.data());
     if (hammer.side == Side::Above) {  // the same in a world upside down
-        for (std::size_t k = 0; k < model.stride; ++k) exciter.row[k] = -exciter.row[k];
+        for (std::size_t k = 0; k < model.shape->stride; ++k) exciter.row[k] = -exciter.row[k];
     }
     double q = 0;
     double v = 0;
-    kernels::row_products(1, model.stride, model.stride, exciter.row.data(), string.displacement.data(), &q);
-    kernels::row_products(1, model.stride, model.stride, exciter.row.data(), string.velocity.data(), &v);
-    exciter.position_m = q - model.step_s / 2 * v;
+    kernels::row_products(1, model.shape->stride, model.shape->stride, exciter.row.data(),
+                          string.displacement.data(), &q);
+    kernels::row_products(1, model.shape->stride, model.shape->stride, exciter.row.data(),
+                          string.velocity.data(), &v);
+    exciter.position_m = q - model.shape->step_s / 2 * v;
     exciter.speed_m_per_s = speed_m_per_s;
     exciter.mass_kg = hammer.mass_kg;
     exciter.stiffness = hammer.stiffness * hardness;
@@ -181,10 +183,10 @@ void begin_hammer(const StringModel& model, const StringState& string, ExciterSt
 void begin_tangent(const StringModel& model, ExciterState& exciter, double height_m,
                    std::uint64_t rise_frames) JAWARI_REALTIME {
     begin(exciter, ExciterPhase::Tangent);
-    const double scale = std::sqrt(2 * model.length_m) / pi;
-    for (std::size_t k = 0; k < model.stride; ++k)
-        exciter.row[k] = k < model.mode_count ? scale / static_cast<double>(k + 1) : 0.0;
-    exciter.peak = model.linear_density_kg_per_m * height_m;
+    const double scale = std::sqrt(2 * model.shape->length_m) / pi;
+    for (std::size_t k = 0; k < model.shape->stride; ++k)
+        exciter.row[k] = k < model.shape->mode_count ? scale / static_cast<double>(k + 1) : 0.0;
+    exciter.peak = model.shape->linear_density_kg_per_m * height_m;
     exciter.rise_frames = rise_frames;
 }
 

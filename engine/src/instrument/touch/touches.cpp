@@ -24,15 +24,15 @@ constexpr double sweep_period_s = 0.04;
 constexpr std::uint64_t sweep_frames = 4;
 
 double frame_s(const StringModel& model) {
-    return model.step_s * static_cast<double>(model.steps_per_frame);
+    return model.shape->step_s * static_cast<double>(model.shape->steps_per_frame);
 }
 
 /// Flesh and felt damp what is heard; modes far beyond die by themselves and need not be woken.
 std::size_t modes_in_reach(const StringModel& model) {
-    const auto end = model.omega.begin() + static_cast<std::ptrdiff_t>(model.mode_count);
+    const auto end = model.tuning.omega.begin() + static_cast<std::ptrdiff_t>(model.shape->mode_count);
     const auto first_beyond =
-        std::upper_bound(model.omega.begin(), end, 2 * std::numbers::pi * touch_limit_hz);
-    return padded(static_cast<std::size_t>(first_beyond - model.omega.begin()));
+        std::upper_bound(model.tuning.omega.begin(), end, 2 * std::numbers::pi * touch_limit_hz);
+    return padded(static_cast<std::size_t>(first_beyond - model.tuning.omega.begin()));
 }
 
 /// Behind its reach the row is zero, so that touches of different reach can be summed together.
@@ -58,7 +58,7 @@ const AlignedVector<double>& row_of(const TouchState& touches, std::size_t i) {
 }
 
 std::size_t modes_of(const StringModel& model, const TouchState& touches, std::size_t i) {
-    return i == exciter_index ? model.stride : touches.touches[i].modes;
+    return i == exciter_index ? model.shape->stride : touches.touches[i].modes;
 }
 
 /// w = phi (q - h v/2) under each force at the frame's start, and its change over the frame in free flight.
@@ -67,14 +67,14 @@ kernels::TouchedRows free_paths(const StringModel& model, const StringState& str
     kernels::TouchedRows rows;  // NOLINT(cppcoreguidelines-pro-type-member-init): `count` entries are set
     rows.count = active.count;
     for (std::size_t a = 0; a < active.count; ++a) rows.row[a] = row_of(touches, active.index[a]).data();
-    const double lag = model.step_s / 2;
+    const double lag = model.shape->step_s / 2;
     const double *q = string.displacement.data(), *v = string.velocity.data();
-    kernels::free_paths(0, active.touched_modes, lag, model.flight, q, v, rows);
+    kernels::free_paths(0, active.touched_modes, lag, model.tuning.flight, q, v, rows);
     if (active.count == active.touches) return rows;
     kernels::TouchedRows beyond;  // NOLINT(cppcoreguidelines-pro-type-member-init): one entry is set
     beyond.count = 1;             // what only the exciter reaches
     beyond.row[0] = touches.exciter.row.data();
-    kernels::free_paths(active.touched_modes, model.stride, lag, model.flight, q, v, beyond);
+    kernels::free_paths(active.touched_modes, model.shape->stride, lag, model.tuning.flight, q, v, beyond);
     rows.middle[active.touches] += beyond.middle[0];
     rows.rise[active.touches] += beyond.rise[0];
     return rows;
@@ -82,13 +82,13 @@ kernels::TouchedRows free_paths(const StringModel& model, const StringState& str
 
 /// G_ij = sum_k phi_i (q_held - h v_held/2) phi_j; `moved` is scratch.
 void set_compliance_of_touches(const StringModel& model, TouchState& touches, const ActiveForces& active) {
-    const double lag = model.step_s / 2;
+    const double lag = model.shape->step_s / 2;
     for (std::size_t a = 0; a < active.count; ++a) {
         const std::size_t i = active.index[a];
         const std::size_t modes = modes_of(model, touches, i);
         const double* row = row_of(touches, i).data();
         double* moved = touches.moved.data();
-        kernels::moved_by_held(modes, lag, model.flight, row, moved);
+        kernels::moved_by_held(modes, lag, model.tuning.flight, row, moved);
         for (std::size_t b = 0; b <= a; ++b) {
             const std::size_t j = active.index[b];
             const double g = kernels::row_product(std::min(modes, modes_of(model, touches, j)),
@@ -264,7 +264,7 @@ void lay_touch(const StringModel& model, const StringState& string, TouchState& 
     write_point_row(model, touch.modes, plan.x_m, plan.width_m, touch.row.data());
     touch.rest_m =
         kernels::row_product(touch.modes, touch.row.data(), string.displacement.data()) -
-        model.step_s / 2 * kernels::row_product(touch.modes, touch.row.data(), string.velocity.data());
+        model.shape->step_s / 2 * kernels::row_product(touch.modes, touch.row.data(), string.velocity.data());
 }
 
 void press_touch(TouchState& touches, TouchSlot slot, double damping_kg_per_s) JAWARI_REALTIME {
@@ -300,7 +300,7 @@ void apply_touches(const StringModel& model, StringState& string, TouchState& to
     note_paths(touches, active, paths, force_N);
     const bool passive = exciter_N == 0 && !active.sprung;
     hold_forces(string, {active.count, force_N.data(), paths.row.data()}, active.touched_modes,
-                excites ? model.stride : active.touched_modes, passive);
+                excites ? model.shape->stride : active.touched_modes, passive);
 }
 
 void rewrite_touches(const StringModel& model, TouchState& touches, std::size_t kept) JAWARI_REALTIME {
@@ -322,7 +322,7 @@ void meter_touches(const StringModel& model, const StringState& string, TouchSta
         if (!struck) return point.path_m;
         const double q = kernels::row_product(modes, row.data(), string.displacement.data());
         const double v = kernels::row_product(modes, row.data(), string.velocity.data());
-        return q - model.step_s / 2 * v - point.start_m;
+        return q - model.shape->step_s / 2 * v - point.start_m;
     };
     for (const Touch& touch : touches.touches) {
         if (touch.point.force_N == 0) continue;
@@ -330,13 +330,13 @@ void meter_touches(const StringModel& model, const StringState& string, TouchSta
     }
     const ExciterState& exciter = touches.exciter;
     if (exciter.point.force_N != 0)
-        work.exciters_J += exciter.point.force_N * path_of(exciter.point, exciter.row, model.stride);
+        work.exciters_J += exciter.point.force_N * path_of(exciter.point, exciter.row, model.shape->stride);
 }
 
 void write_point_row(const StringModel& model, std::size_t modes, double x, double width_m,
                      double* row) JAWARI_REALTIME {
-    const std::size_t count = std::min(modes, model.mode_count);
-    const double L = model.length_m;
+    const std::size_t count = std::min(modes, model.shape->mode_count);
+    const double L = model.shape->length_m;
     kernels::point_row(
         modes, {std::sqrt(2 / L), std::numbers::pi * x / L, std::numbers::pi * width_m / (2 * L)}, row);
     std::fill(row + count, row + modes, 0.0);

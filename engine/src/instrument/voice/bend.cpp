@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "instrument/voice/retune_kernel.h"
 #include "jawari/scene/energy.h"
@@ -22,99 +23,40 @@ kernels::Retuning retuning_of(const StoppedStringModel& stopped, double semitone
     const double ratio = std::exp2(semitones / 12);
     const double B = stopped.inharmonicity;
     const double tension = std::max(slackest, ratio * ratio * (1 + B) - B);
-    const double omega = stopped.string.omega[0];
+    const double omega = stopped.string.tuning.omega[0];
     return {(tension - 1) * omega * omega / (1 + B),
-            highest_share * std::numbers::pi / stopped.string.step_s};
+            highest_share * std::numbers::pi / stopped.string.shape->step_s};
 }
 
-/// What does not depend on the tension. Storage is there; large tables are shared.
-void adopt(const StringModel& base, StringModel& bent) {
-    bent.length_m = base.length_m;
-    bent.linear_density_kg_per_m = base.linear_density_kg_per_m;
-    bent.mode_count = base.mode_count;
-    bent.stride = base.stride;
-    bent.step_s = base.step_s;
-    bent.theta = base.theta;
-    bent.scheme = base.scheme;
-    bent.law = base.law;
-    bent.steps_per_frame = base.steps_per_frame;
-    bent.sigma = base.sigma;
-    bent.carry = base.carry;
-    bent.change = base.change;
-    bent.mobility = base.mobility;
-    bent.dissipation = base.dissipation;
-    bent.certificate.group_begin = base.certificate.group_begin;
-    bent.certificate.envelope = base.certificate.envelope;
-    bent.certificate.reach = base.certificate.reach;
-    bent.certificate.push = base.certificate.push_speed;
-    bent.response_stride = base.response_stride;
-    bent.contact_count = base.contact_count;
-    bent.contact_stride = base.contact_stride;
-    bent.contact_rows = base.contact_rows;
-    bent.contact_columns = base.contact_columns;
-    bent.contact_height = base.contact_height;
-    bent.gap_rounding_m = base.gap_rounding_m;
-    bent.contact_restitution = base.contact_restitution;
-    bent.contact_position = base.contact_position;
-    bent.contact_side = base.contact_side;
-    bent.compliance = base.compliance;
-    bent.grid_intervals = base.grid_intervals;
-    bent.grid_node = base.grid_node;
-    bent.rest_displacement = base.rest_displacement;
+// The compiler sees that the last holder of a shape would free it; none here is the last.
+#if defined(__clang__) && __clang_major__ >= 20
+#pragma clang diagnostic push
+#pragma clang diagnostic ignored "-Wfunction-effects"
+#endif
+/// The instrument's model outlives the motions played on it and holds every shape, so that nothing is freed
+/// here. Copying the pointer allocates nothing: one holder more, and one less of the shape before.
+void share_shape(const StringModel& compiled, StringModel& bent) JAWARI_REALTIME {
+    bent.shape = compiled.shape;
 }
-
-void reserve(StringModel& bent, const StringSizes& sizes) {
-    FlightModel& f = bent.flight;
-    CertificateModel& c = bent.certificate;
-    for (auto* array : {&bent.omega,
-                        &bent.sigma,
-                        &bent.carry,
-                        &bent.change,
-                        &bent.restoring,
-                        &bent.mobility,
-                        &bent.kinetic,
-                        &bent.potential,
-                        &bent.dissipation,
-                        &f.qq,
-                        &f.qv,
-                        &f.vq,
-                        &f.vv,
-                        &f.q_held,
-                        &f.v_held,
-                        &f.q_ramp,
-                        &f.v_ramp,
-                        &c.stiffness,
-                        &c.extent,
-                        &c.detour,
-                        &c.kick,
-                        &bent.rest_displacement}) {
-        array->assign(sizes.stride, 0.0);
-    }
-    c.group_begin.reserve(sizes.groups + 1);
-    c.reach.reserve(sizes.contacts);
-    if (sizes.contacts <= contacts_with_own_bounds) c.push.reserve(sizes.contacts * sizes.contacts);
-    bent.contact_height.reserve(sizes.contacts);
-    bent.contact_restitution.reserve(sizes.contacts);
-    bent.contact_position.reserve(sizes.contacts);
-    bent.contact_side.reserve(sizes.contacts);
-    bent.grid_node.reserve(sizes.contacts);
-}
+#if defined(__clang__) && __clang_major__ >= 20
+#pragma clang diagnostic pop
+#endif
 
 void begin(const StoppedStringModel& stopped, Voice& voice) {
     BendState& bend = voice.bend;
-    adopt(stopped.string, bend.model);
+    share_shape(stopped.string, bend.model);
     std::copy(stopped.backward_q.begin(), stopped.backward_q.end(), bend.backward_q.begin());
     std::copy(stopped.backward_u.begin(), stopped.backward_u.end(), bend.backward_u.begin());
     bend.active = true;
     // There is no response table at this tension: where frames are not short, near ones are stepped, with all
     // contacts if it is not known how impulses push those that are not near.
-    voice.string.skipping.near = !bend.model.certificate.push.empty();
+    voice.string.steps_near = !bend.model.shape->certificate.push_speed.empty();
 }
 
 void restore(const StoppedStringModel& stopped, Voice& voice) {
     BendState& bend = voice.bend;
     StringState& string = voice.string;
-    for (std::size_t k = 0; k < stopped.string.mode_count; ++k) {
+    for (std::size_t k = 0; k < stopped.string.shape->mode_count; ++k) {
         const double share = stopped.backward_u[k] / bend.backward_u[k];
         string.velocity[k] = share * string.velocity[k] +
                              (stopped.backward_q[k] - share * bend.backward_q[k]) * string.displacement[k];
@@ -125,17 +67,18 @@ void restore(const StoppedStringModel& stopped, Voice& voice) {
 }  // namespace
 
 void set_retuning_tables(StoppedStringModel& stopped) {
-    const StringModel& model = stopped.string;
-    const double h = model.step_s;
+    const StringShape& shape = *stopped.string.shape;
+    const double h = shape.step_s;
     for (auto* array : {&stopped.loss_step, &stopped.loss_frame, &stopped.backward_q, &stopped.backward_u})
-        array->assign(model.stride, 0.0);
+        array->assign(shape.stride, 0.0);
     std::fill(stopped.backward_u.begin(), stopped.backward_u.end(), 1.0);
-    for (std::size_t k = 0; k < model.mode_count; ++k) {
-        const double sigma = model.sigma[k];
+    for (std::size_t k = 0; k < shape.mode_count; ++k) {
+        const double omega = stopped.string.tuning.omega[k];
+        const double sigma = shape.sigma[k];
         stopped.loss_step[k] = std::expm1(-sigma * h);
-        stopped.loss_frame[k] = std::expm1(-sigma * h * static_cast<double>(model.steps_per_frame));
-        if (sigma >= model.omega[k]) continue;  // overdamped: never converted
-        const double W = std::sqrt((model.omega[k] - sigma) * (model.omega[k] + sigma));
+        stopped.loss_frame[k] = std::expm1(-sigma * h * static_cast<double>(shape.steps_per_frame));
+        if (sigma >= omega) continue;  // overdamped: never converted
+        const double W = std::sqrt((omega - sigma) * (omega + sigma));
         const double growth = std::exp(sigma * h);
         const double half_sine = std::sin(W * h / 2);
         stopped.backward_u[k] = growth * std::sin(W * h) / (W * h);
@@ -144,9 +87,15 @@ void set_retuning_tables(StoppedStringModel& stopped) {
     }
 }
 
+// A new member of StringTuning: does mode_arrays() name it, and does kernels::retune() fill it?
+static_assert(sizeof(StringTuning) ==
+                  sizeof(FlightModel) + sizeof(CertificateTuning) + 6 * sizeof(AlignedVector<double>) &&
+              sizeof(CertificateTuning) ==
+                  4 * sizeof(AlignedVector<double>) + sizeof(std::vector<double>) + 3 * sizeof(double));
+
 BendState make_bend_state(const StringSizes& sizes) {
     BendState bend;
-    reserve(bend.model, sizes);
+    for (AlignedVector<double>* array : mode_arrays(bend.model.tuning)) array->assign(sizes.stride, 0.0);
     bend.backward_q.assign(sizes.stride, 0.0);
     bend.backward_u.assign(sizes.stride, 0.0);
     return bend;
@@ -162,7 +111,7 @@ void set_bend(const StoppedStringModel& stopped, Voice& voice, double semitones,
         restore(stopped, voice);
     } else {
         if (!bend.active) begin(stopped, voice);
-        kernels::retune(stopped, retuning_of(stopped, semitones), bend.model, bend.backward_q.data(),
+        kernels::retune(stopped, retuning_of(stopped, semitones), bend.model.tuning, bend.backward_q.data(),
                         bend.backward_u.data(), string.displacement.data(), string.velocity.data());
         bend.semitones = semitones;
     }
@@ -176,7 +125,7 @@ void set_bend(const StoppedStringModel& stopped, Voice& voice, double semitones,
 void forget_bend(Voice& voice) JAWARI_REALTIME {
     voice.bend.active = false;
     voice.bend.semitones = 0;
-    voice.string.skipping.near = true;
+    voice.string.steps_near = true;
 }
 
 }  // namespace jawari

@@ -26,14 +26,14 @@ constexpr double end_share = 0.01;
 
 double damping_for(const StoppedStringModel& stopped, double x, double t60_s) JAWARI_REALTIME {
     const StringModel& model = stopped.string;
-    const double sine = std::sin(std::numbers::pi * x / model.length_m);
-    const double shape2 = 2 / model.length_m * sine * sine;
-    const double wanted = 2 * model.linear_density_kg_per_m * std::log(1000.0) / (t60_s * shape2);
+    const double sine = std::sin(std::numbers::pi * x / model.shape->length_m);
+    const double shape2 = 2 / model.shape->length_m * sine * sine;
+    const double wanted = 2 * model.shape->linear_density_kg_per_m * std::log(1000.0) / (t60_s * shape2);
     return std::min(wanted, stopped.wave_impedance_kg_per_s * std::max(2.0, 1 / sine));
 }
 
 double place_on(const StoppedStringModel& stopped, const StringPlace& place, double factor) JAWARI_REALTIME {
-    const double length_m = stopped.string.length_m;
+    const double length_m = stopped.string.shape->length_m;
     const double distance =
         std::clamp(factor * from_bridge(place, length_m), end_share * length_m, (1 - end_share) * length_m);
     return length_m - distance;
@@ -49,7 +49,7 @@ void lay_damping_hand(const InstrumentModel& model, const InstrumentStringModel&
         const TouchSlot slot = i == 0 ? TouchSlot::Release : TouchSlot::ReleaseSecond;
         lay_touch(voice_model(string, voice), voice.string, voice.touches, slot,
                   {.x_m = x,
-                   .sweep_m = hand_sweep * stopped.string.length_m,
+                   .sweep_m = hand_sweep * stopped.string.shape->length_m,
                    .damping_kg_per_s = damping_for(stopped, x, 2 * t60_s),
                    .ease_frames = hand_ease_s * model.output_rate_hz});
     }
@@ -81,7 +81,7 @@ void press_palm(const InstrumentModel& model, const InstrumentStringModel& strin
 void deaden(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice,
             double firmness) JAWARI_REALTIME {
     const StoppedStringModel& stopped = string.stopped[voice.fret];
-    const double x = dead_share * stopped.string.length_m;
+    const double x = dead_share * stopped.string.shape->length_m;
     lay_touch(voice_model(string, voice), voice.string, voice.touches, TouchSlot::Left,
               {.x_m = x,
                .damping_kg_per_s = damping_for(stopped, x, model.hand.dead_t60_s / firmness),
@@ -91,7 +91,7 @@ void deaden(const InstrumentModel& model, const InstrumentStringModel& string, V
 void touch_node(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice,
                 int number) JAWARI_REALTIME {
     const StoppedStringModel& stopped = string.stopped[voice.fret];
-    const double x = stopped.string.length_m / number;
+    const double x = stopped.string.shape->length_m / number;
     lay_touch(voice_model(string, voice), voice.string, voice.touches, TouchSlot::Left,
               {.x_m = x,
                .damping_kg_per_s = damping_for(stopped, x, model.hand.harmonic_t60_s),

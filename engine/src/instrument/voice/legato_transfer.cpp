@@ -109,14 +109,15 @@ void carry_over(const InstrumentStringModel& string, const Voice& from, Voice& t
         from.bend.active ? from.bend.backward_q.data() : string.stopped[from.fret].backward_q.data();
     const double* backward_u =
         from.bend.active ? from.bend.backward_u.data() : string.stopped[from.fret].backward_u.data();
-    const Lengths lengths{source.length_m, stop.string.length_m, std::min(source.mode_count, transfer_modes),
-                          std::min(stop.string.mode_count, transfer_modes)};
-    const double scale = std::sqrt(2 / source.length_m);
+    const Lengths lengths{source.shape->length_m, stop.string.shape->length_m,
+                          std::min(source.shape->mode_count, transfer_modes),
+                          std::min(stop.string.shape->mode_count, transfer_modes)};
+    const double scale = std::sqrt(2 / source.shape->length_m);
     const double before = energy(stop.string, to.string);
     // The backward velocity of the new voice is made of its shape and true velocity, each projected.
     Motion motion;
     for (std::size_t j = 0; j < lengths.from_modes; ++j) {
-        const double q = from.string.displacement[j] - source.rest_displacement[j];
+        const double q = from.string.displacement[j] - source.shape->rest_displacement[j];
         const double u = (from.string.velocity[j] - backward_q[j] * q) / backward_u[j];
         motion.shape[j] = scale * sign_of(j + 1) * q;
         motion.speed[j] = scale * sign_of(j + 1) * u;

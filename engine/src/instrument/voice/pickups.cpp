@@ -30,18 +30,18 @@ double audible_share(double frequency_hz, double output_rate_hz) {
 /// phi-amplitude cos(k pi) = -mu omega^2/alpha sqrt(2/L) cos(k pi). The string pulls the bridge by its
 /// negative slope.
 void write_bridge_row(const StringModel& model, double* row) {
-    for (std::size_t k = 0; k < model.mode_count; ++k) {
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
         const auto n = static_cast<double>(k + 1);
-        const double alpha = n * pi / model.length_m;
+        const double alpha = n * pi / model.shape->length_m;
         const double sign = (k + 1) % 2 == 0 ? -1.0 : 1.0;
-        row[k] = sign * std::sqrt(2 / model.length_m) * model.linear_density_kg_per_m * model.omega[k] *
-                 model.omega[k] / alpha;
+        row[k] = sign * std::sqrt(2 / model.shape->length_m) * model.shape->linear_density_kg_per_m *
+                 model.tuning.omega[k] * model.tuning.omega[k] / alpha;
     }
 }
 
 void make_audible(const StringModel& model, double output_rate_hz, double* row) {
-    for (std::size_t k = 0; k < model.mode_count; ++k)
-        row[k] *= audible_share(model.omega[k] / (2 * pi), output_rate_hz);
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k)
+        row[k] *= audible_share(model.tuning.omega[k] / (2 * pi), output_rate_hz);
 }
 
 double product(const double* row, const AlignedVector<double>& x, std::size_t modes) {
@@ -60,24 +60,25 @@ double share_in_mix(std::size_t pickup, std::size_t count, double mix) {
 void set_output_rows(StoppedStringModel& stopped, const InstrumentDescription& instrument,
                      double output_rate_hz) {
     const StringModel& model = stopped.string;
-    stopped.pickup_rows.assign(instrument.pickups.size() * model.stride, 0.0);
+    stopped.pickup_rows.assign(instrument.pickups.size() * model.shape->stride, 0.0);
     for (std::size_t i = 0; i < instrument.pickups.size(); ++i) {
         const PickupDescription& pickup = instrument.pickups[i];
-        double* row = stopped.pickup_rows.data() + i * model.stride;
+        double* row = stopped.pickup_rows.data() + i * model.shape->stride;
         if (pickup.quantity == PickupQuantity::BridgeForce) {
             write_bridge_row(model, row);
         } else {
-            const double x = model.length_m - from_bridge(pickup.place, model.length_m);
-            write_point_row(model, model.stride, x, pickup.width_m, row);
+            const double x = model.shape->length_m - from_bridge(pickup.place, model.shape->length_m);
+            write_point_row(model, model.shape->stride, x, pickup.width_m, row);
         }
         make_audible(model, output_rate_hz, row);
-        stopped.pickup_rest.push_back(product(row, model.rest_displacement, model.stride));
+        stopped.pickup_rest.push_back(product(row, model.shape->rest_displacement, model.shape->stride));
     }
     if (instrument.body.empty()) return;
-    stopped.bridge_row.assign(model.stride, 0.0);
+    stopped.bridge_row.assign(model.shape->stride, 0.0);
     write_bridge_row(model, stopped.bridge_row.data());
     make_audible(model, output_rate_hz, stopped.bridge_row.data());
-    stopped.bridge_rest_N = product(stopped.bridge_row.data(), model.rest_displacement, model.stride);
+    stopped.bridge_rest_N =
+        product(stopped.bridge_row.data(), model.shape->rest_displacement, model.shape->stride);
 }
 
 double pickup_signal(const InstrumentModel& model, const StoppedStringModel& stopped,
@@ -88,7 +89,7 @@ double pickup_signal(const InstrumentModel& model, const StoppedStringModel& sto
         const PickupDescription& pickup = model.pickups[i];
         const double share = share_in_mix(i, model.pickups.size(), mix);
         if (share == 0) continue;
-        const double* row = stopped.pickup_rows.data() + i * stopped.string.stride;
+        const double* row = stopped.pickup_rows.data() + i * stopped.string.shape->stride;
         const auto displacement = [&] {
             return product(row, string.displacement, modes) - stopped.pickup_rest[i];
         };

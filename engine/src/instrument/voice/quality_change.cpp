@@ -16,15 +16,15 @@ namespace {
 void convert_modes(const StringModel& source, const double* backward_q, const double* backward_u,
                    const StoppedStringModel& to, StringState& string) {
     const StringModel& target = to.string;
-    const std::size_t kept = std::min(source.mode_count, target.mode_count);
+    const std::size_t kept = std::min(source.shape->mode_count, target.shape->mode_count);
     for (std::size_t k = 0; k < kept; ++k) {
-        const double q = string.displacement[k] - source.rest_displacement[k];
+        const double q = string.displacement[k] - source.shape->rest_displacement[k];
         const double u = (string.velocity[k] - backward_q[k] * q) / backward_u[k];
-        string.displacement[k] = q + target.rest_displacement[k];
+        string.displacement[k] = q + target.shape->rest_displacement[k];
         string.velocity[k] = to.backward_q[k] * q + to.backward_u[k] * u;
     }
-    for (std::size_t k = kept; k < target.stride; ++k) {
-        string.displacement[k] = target.rest_displacement[k];
+    for (std::size_t k = kept; k < target.shape->stride; ++k) {
+        string.displacement[k] = target.shape->rest_displacement[k];
         string.velocity[k] = 0;
     }
 }
@@ -39,7 +39,7 @@ void change_voice(const InstrumentStringModel& from, const InstrumentStringModel
     const double before = energy(source, voice.string);
     convert_modes(source, bent ? voice.bend.backward_q.data() : left.backward_q.data(),
                   bent ? voice.bend.backward_u.data() : left.backward_u.data(), reached, voice.string);
-    const std::size_t kept = std::min(source.mode_count, reached.string.mode_count);
+    const std::size_t kept = std::min(source.shape->mode_count, reached.string.shape->mode_count);
     forget_bend(voice);
     PlayerWork of_bend;  // the tension does not change: what it takes belongs to the change of quality
     if (bent) set_bend(reached, voice, semitones, of_bend);

@@ -66,22 +66,23 @@ HWY_INLINE Step step_of(Vec omega2, Vec sigma, Vec loss, Vec frame_loss, double 
     return step;
 }
 
-void retune(const StoppedStringModel& base, const Retuning& retuning, StringModel& bent,
+void retune(const StoppedStringModel& base, const Retuning& retuning, StringTuning& bent,
             double* HWY_RESTRICT backward_q, double* HWY_RESTRICT backward_u, const double* HWY_RESTRICT q,
             double* HWY_RESTRICT v) {
     const Lanes d;
-    const StringModel& from = base.string;
-    const double h = from.step_s;
-    const auto m = static_cast<double>(from.steps_per_frame);
+    const StringShape& shape = *base.string.shape;
+    const StringTuning& from = base.string.tuning;
+    const double h = shape.step_s;
+    const auto m = static_cast<double>(shape.steps_per_frame);
     const Vec zero = hn::Zero(d);
     const Vec one = hn::Set(d, 1.0);
     const Vec h2 = hn::Set(d, h * h);
     const Vec highest2 = hn::Set(d, retuning.highest_omega * retuning.highest_omega);
     Vec reach_growth = one, kick_growth = one;
-    for (std::size_t k = 0; k < from.stride; k += hn::Lanes(d)) {
+    for (std::size_t k = 0; k < shape.stride; k += hn::Lanes(d)) {
         const Vec number = hn::Add(hn::Iota(d, static_cast<double>(k)), one);
         const Vec omega = hn::Load(d, from.omega.data() + k);
-        const Vec sigma = hn::Load(d, from.sigma.data() + k);
+        const Vec sigma = hn::Load(d, shape.sigma.data() + k);
         const Vec omega2 = hn::Mul(omega, omega);
         const Vec wanted = hn::MulAdd(hn::Set(d, retuning.rise), hn::Mul(number, number), omega2);
         const Vec bent2 = hn::Min(wanted, hn::Max(omega2, highest2));
@@ -93,7 +94,7 @@ void retune(const StoppedStringModel& base, const Retuning& retuning, StringMode
                     hn::Load(d, base.loss_step.data() + k), hn::Load(d, base.loss_frame.data() + k), h, m);
         // The mobility stays, so that the Delassus operator does: the modal mass of the highest modes changes
         // by a fraction of a percent instead (docs/engine/model.md).
-        const Vec mobility = hn::Load(d, from.mobility.data() + k);
+        const Vec mobility = hn::Load(d, shape.mobility.data() + k);
         const Vec per_d = hn::Div(one, step.d);
         const Vec alpha = hn::Mul(h2, hn::Mul(mobility, per_d));
         const Vec beta = hn::Mul(hn::Mul(hn::Sub(step.e, one), alpha), per_d);
@@ -120,7 +121,7 @@ void retune(const StoppedStringModel& base, const Retuning& retuning, StringMode
         keep(hn::Div(step.s, hn::Mul(hn::Set(d, 8.0), mobility)), from.kinetic, bent.kinetic);
         const Vec potential = hn::Div(step.d, hn::Mul(hn::Mul(hn::Set(d, 2.0), mobility), h2));
         keep(potential, from.potential, bent.potential);
-        CertificateModel& certificate = bent.certificate;
+        CertificateTuning& certificate = bent.certificate;
         const Vec stiffness = hn::Div(hn::Mul(hn::Set(d, 4.0), step.d), hn::Mul(step.s, h2));
         keep(stiffness, from.certificate.stiffness, certificate.stiffness);
         const Vec extent =
@@ -168,7 +169,7 @@ namespace jawari::kernels {
 
 HWY_EXPORT(retune);
 
-void retune(const StoppedStringModel& base, const Retuning& retuning, StringModel& bent, double* backward_q,
+void retune(const StoppedStringModel& base, const Retuning& retuning, StringTuning& bent, double* backward_q,
             double* backward_u, const double* q, double* v) noexcept {
     HWY_DYNAMIC_DISPATCH(retune)(base, retuning, bent, backward_q, backward_u, q, v);
 }

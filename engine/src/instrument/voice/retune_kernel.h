@@ -14,10 +14,10 @@ struct Retuning {
     double highest_omega = 0;  ///< [rad/s]
 };
 
-/// Fills the coefficients of `bent` from those of `base` and takes v from the old to the new backward
-/// velocity of the same true velocity; backward_q and backward_u are those of the old tension and become
-/// those of the new. Overdamped modes stay as they are.
-void retune(const StoppedStringModel& base, const Retuning& retuning, StringModel& bent, double* backward_q,
+/// Fills the mode_arrays() of `bent` from those of `base`, and the growth of its bounds; takes v from the old
+/// to the new backward velocity of the same true velocity; backward_q and backward_u are those of the old
+/// tension and become those of the new. Overdamped modes stay as they are.
+void retune(const StoppedStringModel& base, const Retuning& retuning, StringTuning& bent, double* backward_q,
             double* backward_u, const double* q, double* v) noexcept;
 
 }  // namespace jawari::kernels

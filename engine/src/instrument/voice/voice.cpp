@@ -68,7 +68,7 @@ void lower_obstacles(const StoppedStringModel& stopped, StringState& string, dou
     if (action_m == 0) return;
     for (const std::uint32_t c : stopped.action_contacts) {
         // The string rests on what lifts it; only what it clears may move, and never to its rest line.
-        const double height = stopped.string.contact_height[c];
+        const double height = stopped.string.shape->contact_height[c];
         string.contact.height[c] = std::min(height - action_m, std::max(height, highest_lowered_m));
         string.contact.height_before[c] = string.contact.height[c];
     }
@@ -77,7 +77,7 @@ void lower_obstacles(const StoppedStringModel& stopped, StringState& string, dou
 
 /// A finger lifts as high from any place: its force follows the compliance x (L - x) of the string there.
 double force_at(const StoppedStringModel& stopped, double full_force_N, double described_x, double x) {
-    const double L = stopped.string.length_m;
+    const double L = stopped.string.shape->length_m;
     return full_force_N * described_x * (L - described_x) / (x * (L - x));
 }
 
@@ -248,10 +248,10 @@ double voice_energy(const InstrumentStringModel& string, Voice& voice) JAWARI_RE
     const StringModel& model = voice_model(string, voice);
     if (string.stopped[voice.fret].held_energy_J == 0) return energy(model, voice.string);
     AlignedVector<double>& beyond = voice.touches.moved;
-    for (std::size_t k = 0; k < model.stride; ++k)
-        beyond[k] = voice.string.displacement[k] - model.rest_displacement[k];
-    return kernels::energy(model.stride, model.kinetic.data(), model.potential.data(), model.step_s / 2,
-                           beyond.data(), voice.string.velocity.data());
+    for (std::size_t k = 0; k < model.shape->stride; ++k)
+        beyond[k] = voice.string.displacement[k] - model.shape->rest_displacement[k];
+    return kernels::energy(model.shape->stride, model.tuning.kinetic.data(), model.tuning.potential.data(),
+                           model.shape->step_s / 2, beyond.data(), voice.string.velocity.data());
 }
 
 }  // namespace jawari

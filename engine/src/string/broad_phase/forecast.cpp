@@ -51,10 +51,10 @@ void complete_forecast_bounds(const StringModel& model, StringState& state) {
     const GapBounds& bounds = state.certificate.bounds;
     const std::size_t low = low_modes(model);
     const std::size_t high = state.active_modes > low ? state.active_modes - low : 0;
-    const double* envelope = model.certificate.envelope.data();
-    kernels::indexed_row_products(missing.data(), missing.size(), low, model.stride, envelope,
+    const double* envelope = model.shape->certificate.envelope.data();
+    kernels::indexed_row_products(missing.data(), missing.size(), low, model.shape->stride, envelope,
                                   bounds.detour.data(), forecast.group_detour.data());
-    kernels::indexed_row_products(missing.data(), missing.size(), high, model.stride, envelope + low,
+    kernels::indexed_row_products(missing.data(), missing.size(), high, model.shape->stride, envelope + low,
                                   bounds.extent.data() + low, forecast.group_overtones.data());
     for (const auto g : missing) {
         forecast.group_detour[g] *= bound_safety;
@@ -65,8 +65,8 @@ void complete_forecast_bounds(const StringModel& model, StringState& state) {
 /// gap[c] <- S q - b of the contacts, low modes alone.
 void low_gaps(const StringModel& model, const StringState& state, const IndexList& contacts,
               const AlignedVector<double>& displacement, std::vector<double>& gap) {
-    kernels::indexed_row_products(contacts.data(), contacts.size(), low_modes(model), model.stride,
-                                  model.contact_rows.data(), displacement.data(), gap.data());
+    kernels::indexed_row_products(contacts.data(), contacts.size(), low_modes(model), model.shape->stride,
+                                  model.shape->contact_rows.data(), displacement.data(), gap.data());
     for (const auto c : contacts) gap[c] -= state.contact.height[c];
 }
 
@@ -86,7 +86,7 @@ void fly_low_modes(const StringModel& model, StringState& state) {
     kernels::FlightRun run;
     run.modes = low;
     run.frames = 1;
-    run.flight = &model.flight;
+    run.flight = &model.tuning.flight;
     run.q = forecast.displacement.data();
     run.v = forecast.velocity.data();
     kernels::fly_frames(run);

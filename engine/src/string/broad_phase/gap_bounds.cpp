@@ -29,7 +29,7 @@ void drop_weak_modes(const StringModel& model, StringState& state, const kernels
            bounds.extent[active - 1] <= lazy_threshold * largest.extent) {
         --active;
     }
-    active = std::min(padded(active), model.stride);
+    active = std::min(padded(active), model.shape->stride);
     for (auto* array : {&state.displacement, &state.velocity, &state.velocity_before,
                         &state.displacement_flown, &state.velocity_flown}) {
         std::fill(array->begin() + static_cast<std::ptrdiff_t>(active),
@@ -68,32 +68,35 @@ void set_clear_limits(const StringModel& model, StringState& state) {
     clear.limits_valid = true;
     double least_height = std::numeric_limits<double>::infinity();
     double least_root = std::numeric_limits<double>::infinity();
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
+    for (std::size_t c = 0; c < model.shape->contact_count; ++c) {
         const double below = std::max(0.0, -state.contact.height[c]);
         least_height = std::min(least_height, below);
-        least_root = std::min(least_root, below / model.certificate.reach[c]);
+        least_root = std::min(least_root, below / model.shape->certificate.reach[c]);
     }
-    const double root = (1 - share_of_forces) * least_root / (bound_safety * model.certificate.reach_growth);
+    const double root =
+        (1 - share_of_forces) * least_root / (bound_safety * model.tuning.certificate.reach_growth);
     clear.energy_J = root * root;
-    clear.force_N = share_of_forces * least_height / model.certificate.force_reach;
+    clear.force_N = share_of_forces * least_height / model.tuning.certificate.force_reach;
 }
 
 bool is_clear(const StringModel& model, StringState& state) {
     if (state.leaves_obstacles) return state.skipping.flight;
     const ClearState& clear = state.certificate.clear;
-    const bool known = model.certificate.reach.size() == model.contact_count && lookahead(model) == 0;
+    const bool known =
+        model.shape->certificate.reach.size() == model.shape->contact_count && lookahead(model) == 0;
     if (!known || !state.skipping.certificate || !state.skipping.flight) return false;
     if (!clear.limits_valid) set_clear_limits(model, state);
     if (!(clear.energy_J > 0) || !stays_passive(state)) return false;
-    return kernels::energy(state.active_modes, model.kinetic.data(), model.potential.data(), model.step_s / 2,
-                           state.displacement.data(), state.velocity.data()) < clear.energy_J;
+    return kernels::energy(state.active_modes, model.tuning.kinetic.data(), model.tuning.potential.data(),
+                           model.shape->step_s / 2, state.displacement.data(),
+                           state.velocity.data()) < clear.energy_J;
 }
 
 /// Whether all gaps are tested at both ends of the frame. While few contacts strike, that costs less than
 /// odometers that serve once.
 bool tests_directly(const StringModel& model, const StringState& state) {
-    return state.certificate.struck && model.contact_count <= contacts_with_own_bounds &&
-           !looks_ahead(model.law);
+    return state.certificate.struck && model.shape->contact_count <= contacts_with_own_bounds &&
+           !looks_ahead(model.shape->law);
 }
 
 /// speed_g = sum_k envelope_g r_k, or 0 where odometers are not needed. Resets the odometers and shifts every
@@ -105,8 +108,9 @@ void set_group_speeds(const StringModel& model, StringState& state) {
     if (validity.direct) {
         std::fill(bounds.group_speed.begin(), bounds.group_speed.end(), 0.0);
     } else {
-        kernels::row_products(groups, state.active_modes, model.stride, model.certificate.envelope.data(),
-                              bounds.speed.data(), bounds.group_speed.data());
+        kernels::row_products(groups, state.active_modes, model.shape->stride,
+                              model.shape->certificate.envelope.data(), bounds.speed.data(),
+                              bounds.group_speed.data());
     }
     for (std::size_t g = 0; g < groups; ++g) {
         bounds.group_speed[g] *= bound_safety;
@@ -131,8 +135,8 @@ const IndexList& complete(const StringModel& model, StringState& state, const In
         if (known[g] == 0) missing.push(g);
         known[g] = 1;
     }
-    kernels::indexed_row_products(missing.data(), missing.size(), state.active_modes, model.stride,
-                                  model.certificate.envelope.data(), x.data(), out.data());
+    kernels::indexed_row_products(missing.data(), missing.size(), state.active_modes, model.shape->stride,
+                                  model.shape->certificate.envelope.data(), x.data(), out.data());
     return missing;
 }
 
@@ -150,9 +154,9 @@ struct ForceBoundsOfParts {
 ForceBoundsOfParts bounds_by_mode(const StringModel& model, const ExcitationState& excitation) {
     const std::size_t low = std::min(low_modes(model), excitation.modes);
     const auto first = static_cast<double>(excitation.elapsed);
-    const auto last = static_cast<double>(excitation.elapsed + model.steps_per_frame);
+    const auto last = static_cast<double>(excitation.elapsed + model.shape->steps_per_frame);
     const auto bounds_of = [&](std::size_t begin, std::size_t end) {
-        return kernels::force_bounds(begin, end, model.certificate, excitation.held.data(),
+        return kernels::force_bounds(begin, end, model.tuning.certificate, excitation.held.data(),
                                      excitation.ramp.data(), first, last);
     };
     return {bounds_of(0, low), bounds_of(low, excitation.modes)};
@@ -164,11 +168,11 @@ ForceBoundsOfParts bounds_by_strength(const StringModel& model, StringState& sta
     UnitKick& unit = state.certificate.bounds.unit_kick;
     if (unit.modes != modes) {
         const std::size_t low = std::min(low_modes(model), modes);
-        const kernels::ForceBounds of_low = kernels::unit_force_bounds(0, low, model.certificate);
-        const kernels::ForceBounds of_high = kernels::unit_force_bounds(low, modes, model.certificate);
+        const kernels::ForceBounds of_low = kernels::unit_force_bounds(0, low, model.tuning.certificate);
+        const kernels::ForceBounds of_high = kernels::unit_force_bounds(low, modes, model.tuning.certificate);
         unit = {modes, of_low.speed, of_low.detour, of_high.speed, of_high.extent, of_high.detour};
     }
-    const double largest_N = state.excitation.strength_N * std::sqrt(2 / model.length_m);
+    const double largest_N = state.excitation.strength_N * std::sqrt(2 / model.shape->length_m);
     ForceBoundsOfParts force;
     force.low.speed = force.low.variation = largest_N * unit.low_speed;
     force.low.detour = largest_N * unit.low_detour;
@@ -243,7 +247,7 @@ void add_kicks(const StringModel& model, StringState& state) JAWARI_REALTIME {
         state.excitation.passive ? bounds_by_strength(model, state) : bounds_by_mode(model, state.excitation);
     KickState& kicks = state.certificate.bounds.kicks;
     const double frame_s = frame_length(model);
-    const double largest_shape = bound_safety * std::sqrt(2 / model.length_m);
+    const double largest_shape = bound_safety * std::sqrt(2 / model.shape->length_m);
     const double scale = largest_shape * frame_s;
     const double sagitta = largest_shape * frame_s * frame_s / 8;
     kicks.speed += scale * (force.low.speed + force.high.speed);

@@ -19,12 +19,12 @@ inline constexpr double bound_safety = 1 + 1e-9;
 
 /// Length of an output frame [s].
 inline double frame_length(const StringModel& model) {
-    return model.step_s * static_cast<double>(model.steps_per_frame);
+    return model.shape->step_s * static_cast<double>(model.shape->steps_per_frame);
 }
 
 /// How far ahead of the step's end the law looks for candidates [s].
 inline double lookahead(const StringModel& model) {
-    return looks_ahead(model.law) ? model.step_s / 2 : 0.0;
+    return looks_ahead(model.shape->law) ? model.shape->step_s / 2 : 0.0;
 }
 
 /// Up to this many contacts each has bounds of its own; more share them in groups of neighbours.
@@ -37,21 +37,21 @@ inline constexpr std::size_t forecast_modes = 64;
 inline constexpr std::uint64_t longest_plan = 16;
 
 inline std::size_t low_modes(const StringModel& model) {
-    return std::min(forecast_modes, model.stride);
+    return std::min(forecast_modes, model.shape->stride);
 }
 
 inline std::size_t group_of(const StringModel& model, std::size_t contact) {
-    const std::size_t size = model.certificate.group_begin[1];
+    const std::size_t size = model.shape->certificate.group_begin[1];
     return size == 1 ? contact : contact / size;  // a division for each contact of a fretboard would be felt
 }
 
 inline std::size_t group_count(const StringModel& model) {
-    return model.certificate.group_begin.size() - 1;
+    return model.shape->certificate.group_begin.size() - 1;
 }
 
 /// The contacts of a group.
 inline IndexRange contacts_of(const StringModel& model, std::size_t group) {
-    return {model.certificate.group_begin[group], model.certificate.group_begin[group + 1]};
+    return {model.shape->certificate.group_begin[group], model.shape->certificate.group_begin[group + 1]};
 }
 
 /// Bound of the rate of a group's gaps over the coming frame [m/s].

@@ -62,7 +62,7 @@ void find_watched_under_force(const StringModel& model, StringState& state) {
     const double* speed = bounds.group_speed.data();
     IndexList& watched = state.certificate.forecast.watched;
     watched.clear();
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
+    for (std::size_t c = 0; c < model.shape->contact_count; ++c) {
         const std::size_t g = group_of(model, c);
         watched.push_if(!(open_until[c] > odometer[g] + (speed[g] + kick) * time), c);
     }
@@ -110,8 +110,8 @@ void compute_frame_gaps(const StringModel& model, StringState& state) {
     for (const auto c : state.certificate.expired) {
         if (known_at[c] != state.frame) unknown.push(c);
     }
-    kernels::indexed_row_products(unknown.data(), unknown.size(), state.active_modes, model.stride,
-                                  model.contact_rows.data(), state.displacement.data(),
+    kernels::indexed_row_products(unknown.data(), unknown.size(), state.active_modes, model.shape->stride,
+                                  model.shape->contact_rows.data(), state.displacement.data(),
                                   bounds.frame_gap.data());
     for (const auto c : unknown) {
         bounds.frame_gap[c] -= state.contact.height[c];
@@ -145,7 +145,7 @@ void find_uncertain(const StringModel& model, StringState& state) {
 
 /// expired <- all contacts, with their gaps.
 void take_all_gaps(const StringModel& model, StringState& state) {
-    state.certificate.expired.fill_to(model.contact_count);
+    state.certificate.expired.fill_to(model.shape->contact_count);
     compute_frame_gaps(model, state);
 }
 
@@ -166,8 +166,8 @@ void certify_by_both_ends(const StringModel& model, StringState& state) {
     const IndexList& expired = state.certificate.expired;
     const KickState kicks = is_excited(state) ? bounds.kicks : KickState{};
     ContactState& contact = state.contact;
-    kernels::indexed_row_products(expired.data(), expired.size(), state.active_modes, model.stride,
-                                  model.contact_rows.data(), state.displacement_flown.data(),
+    kernels::indexed_row_products(expired.data(), expired.size(), state.active_modes, model.shape->stride,
+                                  model.shape->contact_rows.data(), state.displacement_flown.data(),
                                   bounds.frame_end_gap.data());
     for (const auto c : expired) {
         const std::size_t g = group_of(model, c);
@@ -287,7 +287,7 @@ void note_stepped_gaps(const StringModel& model, StringState& state) JAWARI_REAL
     GapBounds& bounds = state.certificate.bounds;
     std::vector<std::uint64_t>& known_at = state.certificate.validity.frame_gap_at;
     const ContactState& contact = state.contact;
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
+    for (std::size_t c = 0; c < model.shape->contact_count; ++c) {
         if (contact.is_near[c] != 0) {
             bounds.frame_gap[c] = contact.gap[c];
             known_at[c] = state.frame + 1;
@@ -322,8 +322,8 @@ void forget_bounds(StringState& state) JAWARI_REALTIME {
 void choose_all_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
     const std::uint8_t are_near = state.leaves_obstacles ? 0 : 1;
-    contact.near.fill_to(state.leaves_obstacles ? 0 : model.contact_count);
-    std::fill_n(contact.is_near.begin(), model.contact_count, are_near);
+    contact.near.fill_to(state.leaves_obstacles ? 0 : model.shape->contact_count);
+    std::fill_n(contact.is_near.begin(), model.shape->contact_count, are_near);
 }
 
 }  // namespace jawari

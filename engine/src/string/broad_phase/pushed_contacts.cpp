@@ -11,18 +11,18 @@ namespace {
 /// What the step's impulses may move a group's gaps until the frame's end.
 double push_of_step(const StringModel& model, const StringState& state, std::size_t g) {
     const ContactState& contact = state.contact;
-    const double* push = model.certificate.push.data() + g * model.contact_count;
+    const double* push = model.shape->certificate.push_speed.data() + g * model.shape->contact_count;
     double speed = 0;
     for (const auto c : contact.candidates) speed += push[c] * contact.impulse[c];
-    const double time_left = model.step_s * static_cast<double>(state.steps_left) + lookahead(model);
-    return bound_safety * model.certificate.push_growth * speed * time_left;
+    const double time_left = model.shape->step_s * static_cast<double>(state.steps_left) + lookahead(model);
+    return bound_safety * model.tuning.certificate.push_growth * speed * time_left;
 }
 
 }  // namespace
 
 bool admit_pushed_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
-    if (contact.near.size() == model.contact_count) return false;
+    if (contact.near.size() == model.shape->contact_count) return false;
     GapBounds& bounds = state.certificate.bounds;
     bool admitted = false;
     for (std::size_t g = 0; g < group_count(model); ++g) {
@@ -45,7 +45,7 @@ bool admit_pushed_contacts(const StringModel& model, StringState& state) JAWARI_
 
 void charge_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME {
     state.certificate.validity.outdated = true;
-    if (state.contact.near.size() == model.contact_count) return;
+    if (state.contact.near.size() == model.shape->contact_count) return;
     std::vector<double>& push = state.certificate.bounds.group_push;
     for (std::size_t g = 0; g < group_count(model); ++g) push[g] += push_of_step(model, state, g);
 }

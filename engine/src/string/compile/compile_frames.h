@@ -1,11 +1,12 @@
 // Coefficients of what rendering may skip.
 #pragma once
 
-#include "jawari/detail/string_model.h"
+#include "string/compile/string_draft.h"
 
 namespace jawari {
 
-/// Fills model.flight and model.certificate from the modes, the step and the contact rows. Exact scheme only.
-void set_skipping(StringModel& model);
+/// Fills what frames need, from the modes, the step and the contact rows: flight, certificate, responses.
+/// Exact scheme only.
+void set_skipping(StringDraft& draft);
 
 }  // namespace jawari

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "jawari/detail/string_model.h"
+#include "string/compile/string_draft.h"
 
 namespace jawari {
 
@@ -15,11 +15,12 @@ inline constexpr std::size_t largest_response_table = std::size_t{1} << 22;
 /// cheaper than over time.
 inline constexpr std::size_t longest_step_response = 16;
 
-/// Finds out whether the contacts lie on a uniform grid, then fills model.compliance.
-void set_compliance(StringModel& model);
+/// Finds out whether the contacts lie on a uniform grid, then fills the compliance.
+void set_compliance(StringDraft& draft);
 
-/// Fills model.response, if it is not too large, and what impulses can push other contacts within a frame.
+/// Fills the responses, if they are not too large, and with them how far impulses push other contacts within
+/// a frame.
 /// Exact scheme only; needs the compliance and the groups of the certificate.
-void set_responses(StringModel& model);
+void set_responses(StringDraft& draft);
 
 }  // namespace jawari

@@ -21,13 +21,13 @@ struct Sizes {
 
 Sizes counted_sizes(const StringModel& model) {
     const std::size_t groups =
-        model.certificate.group_begin.empty() ? 0 : model.certificate.group_begin.size() - 1;
-    return {static_cast<double>(model.stride),
-            static_cast<double>(model.contact_count),
-            static_cast<double>(model.contact_stride),
-            static_cast<double>(std::min(model.contact_count, limits::active_contacts)),
+        model.shape->certificate.group_begin.empty() ? 0 : model.shape->certificate.group_begin.size() - 1;
+    return {static_cast<double>(model.shape->stride),
+            static_cast<double>(model.shape->contact_count),
+            static_cast<double>(model.shape->contact_stride),
+            static_cast<double>(std::min(model.shape->contact_count, limits::active_contacts)),
             static_cast<double>(groups),
-            static_cast<double>(model.steps_per_frame)};
+            static_cast<double>(model.shape->steps_per_frame)};
 }
 
 /// Bounds afresh, gaps at both ends of the frame, and the flight between them.
@@ -111,7 +111,7 @@ FrameCost frame_cost(const StringModel& model) JAWARI_REALTIME {
     const Sizes n = counted_sizes(model);
     FrameCost cost;
     cost.flight = flight_operations * n.modes;
-    if (model.contact_count == 0) {
+    if (model.shape->contact_count == 0) {
         cost.permanent_contact = cost.flight;
         cost.bound = cost.flight + bound_operations * n.modes;
         return cost;
@@ -122,7 +122,7 @@ FrameCost frame_cost(const StringModel& model) JAWARI_REALTIME {
         cost.permanent_contact = short_run(n) + short_spread(n) + n.steps * short_solve(n);
         cost.bound =
             looking(n) + short_start(n) + short_run(n) + short_spread(n) + n.steps * longest_short_solve(n);
-    } else if (model.response.empty()) {
+    } else if (model.tuning.response.empty()) {
         cost.permanent_contact = looking(n) + stepped(n) + spread(n) / n.steps + solves;
         cost.bound = looking(n) + planning(n) + stepped(n) + n.contacts * (spread(n) + longest_solves);
     } else {

@@ -10,41 +10,42 @@ namespace jawari {
 
 std::optional<AlignedVector<double>> held_displacement(const StringModel& model,
                                                        std::span<const double> displacement) {
-    const std::size_t n = model.stride;
-    const std::size_t count = model.contact_count;
+    const std::size_t n = model.shape->stride;
+    const std::size_t count = model.shape->contact_count;
     AlignedVector<double> held(n, 0.0);
-    AlignedVector<double> gap(model.contact_stride, 0.0);
-    kernels::row_products(count, n, n, model.contact_rows.data(), displacement.data(), gap.data());
+    AlignedVector<double> gap(model.shape->contact_stride, 0.0);
+    kernels::row_products(count, n, n, model.shape->contact_rows.data(), displacement.data(), gap.data());
     bool penetrates = false;
     for (std::size_t c = 0; c < count; ++c) {
-        gap[c] -= model.contact_height[c];
+        gap[c] -= model.shape->contact_height[c];
         penetrates = penetrates || gap[c] < 0;
     }
     if (!penetrates) return held;
 
     AlignedVector<double> compliance_of_mode(n, 0.0);  // 1/(mu omega^2)
-    for (std::size_t k = 0; k < model.mode_count; ++k) compliance_of_mode[k] = 0.5 / model.potential[k];
-    AlignedVector<double> static_compliance(count * model.contact_stride, 0.0);
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k)
+        compliance_of_mode[k] = 0.5 / model.tuning.potential[k];
+    AlignedVector<double> static_compliance(count * model.shape->contact_stride, 0.0);
     AlignedVector<double> response(n);
     for (std::size_t c = 0; c < count; ++c) {
         std::fill(response.begin(), response.end(), 0.0);
-        kernels::add_impulse(n, 1.0, compliance_of_mode.data(), model.contact_rows.data() + c * n,
+        kernels::add_impulse(n, 1.0, compliance_of_mode.data(), model.shape->contact_rows.data() + c * n,
                              response.data());
-        kernels::row_products(count, n, n, model.contact_rows.data(), response.data(),
-                              static_compliance.data() + c * model.contact_stride);
+        kernels::row_products(count, n, n, model.shape->contact_rows.data(), response.data(),
+                              static_compliance.data() + c * model.shape->contact_stride);
     }
     std::vector<std::uint32_t> candidates(count);
     std::iota(candidates.begin(), candidates.end(), 0U);
-    AlignedVector<double> force(model.contact_stride, 0.0);
-    AlignedVector<double> residual(model.contact_stride, 0.0);
+    AlignedVector<double> force(model.shape->contact_stride, 0.0);
+    AlignedVector<double> residual(model.shape->contact_stride, 0.0);
     LcpWorkspace workspace = make_lcp_workspace(count, count);
-    const LcpOutcome outcome = solve_lcp({static_compliance.data(), model.contact_stride}, gap, candidates,
-                                         force, residual, workspace);
+    const LcpOutcome outcome = solve_lcp({static_compliance.data(), model.shape->contact_stride}, gap,
+                                         candidates, force, residual, workspace);
     if (!outcome.finished) return {};
     for (std::size_t c = 0; c < count; ++c) {
         if (force[c] > 0) {
-            kernels::add_impulse(n, force[c], compliance_of_mode.data(), model.contact_rows.data() + c * n,
-                                 held.data());
+            kernels::add_impulse(n, force[c], compliance_of_mode.data(),
+                                 model.shape->contact_rows.data() + c * n, held.data());
         }
     }
     return held;

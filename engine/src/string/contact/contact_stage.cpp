@@ -15,10 +15,10 @@ ContactMoment moment_of(const StringModel& model, const ContactState& contact, s
     ContactMoment moment;
     moment.gap = contact.gap[c];
     moment.gap_before = contact.gap_before[c];
-    moment.approach = model.step_s * contact.gap_rate[c];
-    moment.restitution = model.contact_restitution[c];
-    moment.theta = model.theta;
-    moment.scheme = model.scheme;
+    moment.approach = model.shape->step_s * contact.gap_rate[c];
+    moment.restitution = model.shape->contact_restitution[c];
+    moment.theta = model.shape->theta;
+    moment.scheme = model.shape->scheme;
     moment.excused = excused_depth(model, contact);
     return moment;
 }
@@ -52,8 +52,9 @@ void make_passive(const StringModel& model, ContactState& contact) {
 void near_products(const StringModel& model, StringState& state, const AlignedVector<double>& x,
                    AlignedVector<double>& out) {
     const ContactState& contact = state.contact;
-    kernels::indexed_row_products(contact.near.data(), contact.near.size(), state.active_modes, model.stride,
-                                  model.contact_rows.data(), x.data(), out.data());
+    kernels::indexed_row_products(contact.near.data(), contact.near.size(), state.active_modes,
+                                  model.shape->stride, model.shape->contact_rows.data(), x.data(),
+                                  out.data());
 }
 
 }  // namespace
@@ -64,23 +65,23 @@ void place_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
     near_products(model, state, state.velocity, contact.gap_rate);
     for (const auto c : contact.near) {
         contact.gap_before[c] =
-            contact.gap[c] - model.step_s * contact.gap_rate[c] - contact.height_before[c];
+            contact.gap[c] - model.shape->step_s * contact.gap_rate[c] - contact.height_before[c];
         contact.gap[c] -= contact.height[c];
     }
 }
 
 void join_step(const StringModel& model, StringState& state, std::size_t c) JAWARI_REALTIME {
-    JAWARI_ASSERT(c < model.contact_count);
+    JAWARI_ASSERT(c < model.shape->contact_count);
     ContactState& contact = state.contact;
     const auto row_product = [&](const AlignedVector<double>& x) {
         const auto index = static_cast<std::uint32_t>(c);
-        kernels::indexed_row_products(&index, 1, state.active_modes, model.stride, model.contact_rows.data(),
-                                      x.data(), contact.residual.data());
+        kernels::indexed_row_products(&index, 1, state.active_modes, model.shape->stride,
+                                      model.shape->contact_rows.data(), x.data(), contact.residual.data());
         return contact.residual[c];
     };
     contact.gap[c] = row_product(state.displacement) - contact.height[c];
-    contact.gap_before[c] = contact.gap[c] - model.step_s * row_product(state.velocity_before);
-    contact.gap_free[c] = contact.gap[c] + model.step_s * row_product(state.velocity);
+    contact.gap_before[c] = contact.gap[c] - model.shape->step_s * row_product(state.velocity_before);
+    contact.gap_free[c] = contact.gap[c] + model.shape->step_s * row_product(state.velocity);
     contact.impulse[c] = 0;
     make_near(contact, c);
 }
@@ -110,11 +111,12 @@ void note_approach(const StringModel& model, StringState& state) JAWARI_REALTIME
 
 void predict_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
-    const double h = model.step_s;
+    const double h = model.shape->step_s;
     near_products(model, state, state.velocity, contact.gap_free);
     for (const auto c : contact.near) {
         const double raised = contact.height[c] - contact.height_before[c];
-        const double rate = model.theta * contact.gap_free[c] + (1 - model.theta) * contact.gap_rate[c];
+        const double rate =
+            model.shape->theta * contact.gap_free[c] + (1 - model.shape->theta) * contact.gap_rate[c];
         contact.gap_free[c] = contact.gap[c] + h * rate - raised;
     }
 }
@@ -125,12 +127,12 @@ bool select_candidates(const StringModel& model, StringState& state) JAWARI_REAL
     bool violated = false;
     for (const auto c : contact.near) {
         const ContactMoment moment = moment_of(model, contact, c);
-        if (!is_candidate(model.law, moment)) {
+        if (!is_candidate(model.shape->law, moment)) {
             contact.impulse[c] = 0;
             continue;
         }
         contact.candidates.push(c);
-        contact.offset[c] = contact.gap_free[c] - target_gap(model.law, moment);
+        contact.offset[c] = contact.gap_free[c] - target_gap(model.shape->law, moment);
         violated = violated || contact.offset[c] < 0;
     }
     return violated;
@@ -160,8 +162,9 @@ void apply_impulses(const StringModel& model, StringState& state) JAWARI_REALTIM
     const ContactState& contact = state.contact;
     for (const auto c : contact.candidates) {
         if (contact.impulse[c] <= 0) continue;
-        kernels::add_impulse(model.stride, contact.impulse[c], model.mobility.data(),
-                             model.contact_rows.data() + c * model.stride, state.velocity.data());
+        kernels::add_impulse(model.shape->stride, contact.impulse[c], model.shape->mobility.data(),
+                             model.shape->contact_rows.data() + c * model.shape->stride,
+                             state.velocity.data());
     }
 }
 

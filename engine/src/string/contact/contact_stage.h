@@ -13,7 +13,7 @@ namespace jawari {
 
 /// Depth [m] that rounding and the residual of the last solve explain: ContactMoment::excused.
 inline double excused_depth(const StringModel& model, const ContactState& contact) {
-    return model.gap_rounding_m + contact.left_open;
+    return model.shape->gap_rounding_m + contact.left_open;
 }
 
 /// Contact `c` joins the near contacts. Precondition: it is not one of them.

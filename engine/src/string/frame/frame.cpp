@@ -27,7 +27,8 @@ constexpr std::uint32_t longest_backoff = 7;
 bool step_through(const StringModel& model, StringState& state) {
     const std::uint64_t impulses_before = state.counters.impulses;
     place_gaps(model, state);
-    for (state.steps_left = model.steps_per_frame; state.steps_left > 0;) step_near_contacts(model, state);
+    for (state.steps_left = model.shape->steps_per_frame; state.steps_left > 0;)
+        step_near_contacts(model, state);
     return state.counters.impulses != impulses_before;
 }
 
@@ -37,13 +38,13 @@ bool fly(const StringModel& model, StringState& state) {
     const double *q = state.displacement.data(), *v = state.velocity.data();
     double *q_end = state.displacement_flown.data(), *v_end = state.velocity_flown.data();
     if (excitation.ramps) {
-        kernels::fly(state.active_modes, model.flight, q, v, q_end, v_end);
-        return kernels::add_force_response(state.active_modes, model.flight, excitation.held.data(),
+        kernels::fly(state.active_modes, model.tuning.flight, q, v, q_end, v_end);
+        return kernels::add_force_response(state.active_modes, model.tuning.flight, excitation.held.data(),
                                            excitation.ramp.data(), static_cast<double>(excitation.elapsed),
                                            q_end, v_end);
     }
-    return kernels::fly_forced(state.active_modes, excitation.modes, model.flight, excitation.held.data(), q,
-                               v, q_end, v_end);
+    return kernels::fly_forced(state.active_modes, excitation.modes, model.tuning.flight,
+                               excitation.held.data(), q, v, q_end, v_end);
 }
 
 void adopt_flight(StringState& state) {
@@ -70,8 +71,8 @@ void pass_freely(const StringModel& model, StringState& state) {
     state.certificate.struck = false;
     if (state.skipping.flight) {
         adopt_flight(state);
-        state.excitation.elapsed += model.steps_per_frame;
-        state.counters.steps += model.steps_per_frame;
+        state.excitation.elapsed += model.shape->steps_per_frame;
+        state.counters.steps += model.shape->steps_per_frame;
         state.counters.flown_frames += 1;
     } else {
         step_through(model, state);
@@ -93,7 +94,7 @@ bool pass_short(const StringModel& model, StringState& state) {
 /// Returns false if the state has become non-finite.
 bool pass_near(const StringModel& model, StringState& state, FrameKind kind) {
     const bool in_contact_space = kind == FrameKind::NearInContactSpace;
-    if (!state.skipping.near) choose_all_contacts(model, state);
+    if (!evaluates_near_alone(state)) choose_all_contacts(model, state);
     const bool struck = in_contact_space ? solve_near_frame(model, state) : step_through(model, state);
     state.counters.near_frames += 1;
     if (in_contact_space || !struck) adopt_flight(state);
@@ -108,7 +109,7 @@ bool pass_near(const StringModel& model, StringState& state, FrameKind kind) {
 /// non-finite.
 bool pass_uniformly(const StringModel& model, StringState& state) {
     choose_all_contacts(model, state);
-    state.active_modes = model.stride;
+    state.active_modes = model.shape->stride;
     step_through(model, state);
     forget_bounds(state);
     meter_highest(model, state);
@@ -211,7 +212,7 @@ void fly_ahead(const StringModel& model, StringState& state, std::span<const Rea
     kernels::FlightRun run;
     run.modes = state.active_modes;
     run.frames = frames;
-    run.flight = &model.flight;
+    run.flight = &model.tuning.flight;
     run.q = state.displacement.data();
     run.v = state.velocity.data();
     run.readings = readings;
@@ -219,7 +220,7 @@ void fly_ahead(const StringModel& model, StringState& state, std::span<const Rea
     run.first = first;
     const bool finite = kernels::fly_frames(run);
     state.certificate.struck = false;
-    state.counters.steps += frames * model.steps_per_frame;
+    state.counters.steps += frames * model.shape->steps_per_frame;
     state.counters.flown_frames += frames;
     state.frame += frames;
     if (finite) return;
@@ -260,7 +261,7 @@ void cross_frame(const StringModel& model, StringState& state, BroadPhaseAnswer 
 }
 
 void advance_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    JAWARI_ASSERT(state.displacement.size() >= model.stride);
+    JAWARI_ASSERT(state.displacement.size() >= model.shape->stride);
     cross_frame(model, state, plan_frames(model, state));
 }
 

@@ -17,7 +17,7 @@ namespace jawari {
 inline void pass_asleep(const StringModel& model, StringState& state, std::size_t frames) JAWARI_REALTIME {
     JAWARI_ASSERT(sleeps_on(state));
     state.counters.asleep_frames += frames;
-    state.counters.steps += frames * model.steps_per_frame;
+    state.counters.steps += frames * model.shape->steps_per_frame;
     state.frame += frames;
 }
 

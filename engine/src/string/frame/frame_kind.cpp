@@ -10,7 +10,7 @@ bool may_skip(const StringModel& model, const StringState& state) {
     const Skipping& skipping = state.skipping;
     const bool any =
         skipping.flight || skipping.certificate || skipping.near || skipping.lazy || skipping.sleep;
-    return any && model.scheme == Scheme::Exact && state.metering != Metering::Step;
+    return any && model.shape->scheme == Scheme::Exact && state.metering != Metering::Step;
 }
 
 /// Whether a contact is so likely that testing for it costs more than it saves.
@@ -25,12 +25,12 @@ bool sleeps_on(const StringState& state) JAWARI_REALTIME {
 }
 
 bool solves_short_frames(const StringModel& model, const StringState& state) JAWARI_REALTIME {
-    return state.skipping.near && has_short_frames(model);
+    return evaluates_near_alone(state) && has_short_frames(model);
 }
 
 bool steps_uniformly(const StringModel& model, const StringState& state) JAWARI_REALTIME {
     return !may_skip(model, state) || state.contact.moving_count > 0 ||
-           (!state.skipping.certificate && model.contact_count > 0);
+           (!state.skipping.certificate && model.shape->contact_count > 0);
 }
 
 std::optional<FrameKind> choose_frame_kind(const StringModel& model, const StringState& state,
@@ -44,7 +44,7 @@ std::optional<FrameKind> choose_frame_kind(const StringModel& model, const Strin
         return unanswered ? std::nullopt : std::optional(FrameKind::Short);
     }
     if (answer != BroadPhaseAnswer::MayClose) return std::nullopt;
-    const bool in_contact_space = state.skipping.near && !model.response.empty();
+    const bool in_contact_space = evaluates_near_alone(state) && !model.tuning.response.empty();
     return in_contact_space ? FrameKind::NearInContactSpace : FrameKind::NearStepped;
 }
 

@@ -31,6 +31,11 @@ enum class BroadPhaseAnswer {
 /// True if the string sleeps and nothing is about to wake it.
 bool sleeps_on(const StringState& state) JAWARI_REALTIME;
 
+/// Whether frames with contacts that may close leave out all other contacts.
+inline bool evaluates_near_alone(const StringState& state) noexcept {
+    return state.skipping.near && state.steps_near;
+}
+
 /// Whether frames with contact are solved as short ones.
 bool solves_short_frames(const StringModel& model, const StringState& state) JAWARI_REALTIME;
 

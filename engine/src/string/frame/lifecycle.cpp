@@ -37,7 +37,7 @@ ContactState make_contact_state(const StringSizes& sizes) {
 }
 
 void place_obstacles(const StringModel& model, ContactState& contact) {
-    std::copy(model.contact_height.begin(), model.contact_height.end(), contact.height.begin());
+    std::copy(model.shape->contact_height.begin(), model.shape->contact_height.end(), contact.height.begin());
     contact.height_before = contact.height;
     for (auto* array :
          {&contact.height_rise_before, &contact.impulse, &contact.frame_impulse, &contact.gap_rate}) {
@@ -129,15 +129,15 @@ ShortFrameState make_short_frame_state(const StringSizes& sizes) {
 }  // namespace
 
 StringSizes sizes_of(const StringModel& model) {
-    const std::size_t groups = std::max<std::size_t>(model.certificate.group_begin.size(), 1) - 1;
-    const std::size_t response_stride = model.response.empty() ? 0 : model.response_stride;
+    const std::size_t groups = std::max<std::size_t>(model.shape->certificate.group_begin.size(), 1) - 1;
+    const std::size_t response_stride = model.tuning.response.empty() ? 0 : model.shape->response_stride;
     const bool is_short = has_short_frames(model);
-    return {model.stride,
-            model.contact_count,
+    return {model.shape->stride,
+            model.shape->contact_count,
             groups,
             response_stride,
-            is_short ? model.contact_stride : 0,
-            is_short ? model.steps_per_frame : 0};
+            is_short ? model.shape->contact_stride : 0,
+            is_short ? model.shape->steps_per_frame : 0};
 }
 
 StringSizes larger(const StringSizes& a, const StringSizes& b) {
@@ -181,11 +181,12 @@ SceneState make_state(const SceneModel& model, Metering metering, Skipping skipp
 }
 
 void reset(const StringModel& model, StringState& state) noexcept {
-    JAWARI_ASSERT(state.displacement.size() >= model.stride);
-    JAWARI_ASSERT(state.contact.gap.size() >= model.contact_count);
-    std::copy(model.initial_displacement.begin(), model.initial_displacement.end(),
+    JAWARI_ASSERT(state.displacement.size() >= model.shape->stride);
+    JAWARI_ASSERT(state.contact.gap.size() >= model.shape->contact_count);
+    std::copy(model.shape->initial_displacement.begin(), model.shape->initial_displacement.end(),
               state.displacement.begin());
-    std::copy(model.initial_velocity.begin(), model.initial_velocity.end(), state.velocity.begin());
+    std::copy(model.shape->initial_velocity.begin(), model.shape->initial_velocity.end(),
+              state.velocity.begin());
     clear_excitation(state);
     state.frame = 0;
     state.leaves_obstacles = false;
@@ -206,7 +207,8 @@ void reset(const SceneModel& model, SceneState& state) noexcept {
 }
 
 void put_to_rest(const StringModel& model, StringState& state) noexcept {
-    std::copy(model.rest_displacement.begin(), model.rest_displacement.end(), state.displacement.begin());
+    std::copy(model.shape->rest_displacement.begin(), model.shape->rest_displacement.end(),
+              state.displacement.begin());
     std::fill(state.velocity.begin(), state.velocity.end(), 0.0);
     clear_excitation(state);
     place_obstacles(model, state.contact);
@@ -217,7 +219,7 @@ void notice_change(const StringModel& model, StringState& state) noexcept {
     state.contact.left_open = 0;
     state.lcp.factored = nullptr;
     state.short_frame.table.of = nullptr;
-    state.active_modes = model.stride;
+    state.active_modes = model.shape->stride;
     state.asleep = false;
     choose_all_contacts(model, state);
     place_gaps(model, state);

@@ -21,14 +21,14 @@ void drive_by_excitation(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
     const ExcitationState& excitation = state.excitation;
     std::fill(near.force_rows.begin(), near.force_rows.end(), 0.0);
-    kernels::add_impulse(model.stride, 1.0, model.mobility.data(), excitation.held.data(),
+    kernels::add_impulse(model.shape->stride, 1.0, model.shape->mobility.data(), excitation.held.data(),
                          near.force_rows.data());
-    kernels::add_impulse(model.stride, 1.0, model.mobility.data(), excitation.ramp.data(),
-                         near.force_rows.data() + model.stride);
-    for (std::size_t n = 0; n < model.steps_per_frame; ++n) {
-        near.force_impulses[n] = model.step_s;
-        near.force_impulses[model.response_stride + n] =
-            model.step_s * static_cast<double>(excitation.elapsed + n);
+    kernels::add_impulse(model.shape->stride, 1.0, model.shape->mobility.data(), excitation.ramp.data(),
+                         near.force_rows.data() + model.shape->stride);
+    for (std::size_t n = 0; n < model.shape->steps_per_frame; ++n) {
+        near.force_impulses[n] = model.shape->step_s;
+        near.force_impulses[model.shape->response_stride + n] =
+            model.shape->step_s * static_cast<double>(excitation.elapsed + n);
     }
 }
 
@@ -41,23 +41,23 @@ void run_free(const StringModel& model, StringState& state, std::size_t first) {
     kernels::ModeRun run = kernels::frame_run(model);
     run.modes = state.active_modes;
     for (std::size_t i = first; i < contact.near.size(); ++i) {
-        near.rows[i] = model.contact_rows.data() + contact.near[i] * model.stride;
+        near.rows[i] = model.shape->contact_rows.data() + contact.near[i] * model.shape->stride;
     }
     run.probes = contact.near.size() - first;
     run.probe_rows = near.rows.data() + first;
-    run.rates = near.rates_free.data() + first * model.response_stride;
-    run.rate_stride = model.response_stride;
+    run.rates = near.rates_free.data() + first * model.shape->response_stride;
+    run.rate_stride = model.shape->response_stride;
     run.lanes = near.lanes.data();
     run.q = near.displacement.data();
     run.v = near.velocity.data();
     const std::array<const double*, 2> force_rows{near.force_rows.data(),
-                                                  near.force_rows.data() + model.stride};
+                                                  near.force_rows.data() + model.shape->stride};
     if (is_excited(state)) {
         drive_by_excitation(model, state);
         run.drivers = state.excitation.ramps ? 2 : 1;
         run.driver_rows = force_rows.data();
         run.impulses = near.force_impulses.data();
-        run.impulse_stride = model.response_stride;
+        run.impulse_stride = model.shape->response_stride;
     }
     kernels::run_modes(run);
 }
@@ -76,10 +76,10 @@ void restore_start(StringState& state) {
 double* impulses_of(const StringModel& model, NearState& near, std::uint32_t contact) {
     const auto found = std::find(near.struck.begin(), near.struck.end(), contact);
     const auto slot = static_cast<std::size_t>(found - near.struck.begin());
-    double* impulses = near.impulses.data() + slot * model.response_stride;
+    double* impulses = near.impulses.data() + slot * model.shape->response_stride;
     if (slot == near.struck.size()) {
         near.struck.push(contact);
-        std::fill_n(impulses, model.response_stride, 0.0);
+        std::fill_n(impulses, model.shape->response_stride, 0.0);
     }
     return impulses;
 }
@@ -107,11 +107,11 @@ void spread_over_time(const StringModel& model, StringState& state, std::size_t 
 /// Adds the responses to the step's impulses to the rates of all later steps, step by step.
 void spread_over_contacts(const StringModel& model, StringState& state, std::size_t n) {
     const ContactState& contact = state.contact;
-    const std::size_t stride = model.contact_stride;
-    const std::size_t step = model.contact_count * stride;
-    for (std::size_t later = n + 1; later < model.steps_per_frame; ++later) {
+    const std::size_t stride = model.shape->contact_stride;
+    const std::size_t step = model.shape->contact_count * stride;
+    for (std::size_t later = n + 1; later < model.shape->steps_per_frame; ++later) {
         kernels::add_rows(contact.candidates.data(), contact.candidates.size(), contact.impulse.data(),
-                          stride, stride, model.step_response.data() + (later - n) * step,
+                          stride, stride, model.tuning.step_response.data() + (later - n) * step,
                           state.near_frame.rates.data() + later * stride);
     }
 }
@@ -120,12 +120,12 @@ void spread_over_contacts(const StringModel& model, StringState& state, std::siz
 void predict_near_gaps(const StringModel& model, StringState& state, std::size_t n) {
     ContactState& contact = state.contact;
     const AlignedVector<double>& rates = state.near_frame.rates;
-    const bool by_step = !model.step_response.empty();
+    const bool by_step = !model.tuning.step_response.empty();
     for (std::size_t i = 0; i < contact.near.size(); ++i) {
         const auto c = contact.near[i];
-        const double rate =
-            by_step ? rates[n * model.contact_stride + c] : rates[i * model.response_stride + n];
-        contact.gap_free[c] = contact.gap[c] + model.step_s * rate;
+        const double rate = by_step ? rates[n * model.shape->contact_stride + c]
+                                    : rates[i * model.shape->response_stride + n];
+        contact.gap_free[c] = contact.gap[c] + model.shape->step_s * rate;
     }
 }
 
@@ -133,14 +133,15 @@ void predict_near_gaps(const StringModel& model, StringState& state, std::size_t
 void begin_rates(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
     const ContactState& contact = state.contact;
-    if (model.step_response.empty()) {
-        std::copy_n(near.rates_free.begin(), contact.near.size() * model.response_stride, near.rates.begin());
+    if (model.tuning.step_response.empty()) {
+        std::copy_n(near.rates_free.begin(), contact.near.size() * model.shape->response_stride,
+                    near.rates.begin());
         return;
     }
     for (std::size_t i = 0; i < contact.near.size(); ++i) {
-        for (std::size_t n = 0; n < model.steps_per_frame; ++n)
-            near.rates[n * model.contact_stride + contact.near[i]] =
-                near.rates_free[i * model.response_stride + n];
+        for (std::size_t n = 0; n < model.shape->steps_per_frame; ++n)
+            near.rates[n * model.shape->contact_stride + contact.near[i]] =
+                near.rates_free[i * model.shape->response_stride + n];
     }
 }
 
@@ -149,14 +150,14 @@ void solve_in_contact_space(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
     begin_rates(model, state);
     near.struck.clear();
-    near.first_impulse = model.steps_per_frame;
-    for (std::size_t n = 0; n < model.steps_per_frame; ++n) {
+    near.first_impulse = model.shape->steps_per_frame;
+    for (std::size_t n = 0; n < model.shape->steps_per_frame; ++n) {
         predict_near_gaps(model, state, n);
         if (select_candidates(model, state)) {
             solve_impulses(model, state);
             near.first_impulse = std::min(near.first_impulse, n);
             keep_impulses(model, state, n);
-            if (model.step_response.empty()) {
+            if (model.tuning.step_response.empty()) {
                 spread_over_time(model, state, n);
             } else {
                 spread_over_contacts(model, state, n);
@@ -174,7 +175,7 @@ bool admit_pushed(const StringModel& model, StringState& state) {
     GapBounds& bounds = state.certificate.bounds;
     const std::size_t before = contact.near.size();
     for (std::size_t g = 0; g < group_count(model); ++g) {
-        const double* push_by = model.certificate.push.data() + g * model.contact_count;
+        const double* push_by = model.tuning.certificate.push_path.data() + g * model.shape->contact_count;
         double push = 0;
         for (const auto struck : state.near_frame.struck)
             push += push_by[struck] * contact.frame_impulse[struck];
@@ -191,31 +192,32 @@ bool admit_pushed(const StringModel& model, StringState& state) {
 /// scaled at the end.
 void run_impulses(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
-    state.active_modes = model.stride;
+    state.active_modes = model.shape->stride;
     std::fill(near.displacement.begin(), near.displacement.end(), 0.0);
     std::fill(near.velocity.begin(), near.velocity.end(), 0.0);
     kernels::ModeRun run = kernels::frame_run(model);
     for (std::size_t i = 0; i < near.struck.size(); ++i) {
-        near.rows[i] = model.contact_rows.data() + near.struck[i] * model.stride;
+        near.rows[i] = model.shape->contact_rows.data() + near.struck[i] * model.shape->stride;
     }
     run.drivers = near.struck.size();
     run.driver_rows = near.rows.data();
     run.impulses = near.impulses.data() + near.first_impulse;
-    run.impulse_stride = model.response_stride;
-    run.steps = model.steps_per_frame - near.first_impulse;
+    run.impulse_stride = model.shape->response_stride;
+    run.steps = model.shape->steps_per_frame - near.first_impulse;
     run.q = near.displacement.data();
     run.v = near.velocity.data();
     kernels::run_modes(run);
-    kernels::add_impulse(model.stride, 1.0, model.mobility.data(), near.displacement.data(),
+    kernels::add_impulse(model.shape->stride, 1.0, model.shape->mobility.data(), near.displacement.data(),
                          state.displacement_flown.data());
-    kernels::add_impulse(model.stride, 1.0, model.mobility.data(), near.velocity.data(),
+    kernels::add_impulse(model.shape->stride, 1.0, model.shape->mobility.data(), near.velocity.data(),
                          state.velocity_flown.data());
 }
 
 }  // namespace
 
 bool solve_near_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    JAWARI_ASSERT(!model.response.empty() && state.near_frame.rates.size() >= model.response_stride);
+    JAWARI_ASSERT(!model.tuning.response.empty() &&
+                  state.near_frame.rates.size() >= model.shape->response_stride);
     ContactState& contact = state.contact;
     std::size_t known = 0;
     place_gaps(model, state);
@@ -228,8 +230,8 @@ bool solve_near_frame(const StringModel& model, StringState& state) JAWARI_REALT
         restore_start(state);
         place_gaps(model, state);
     } while (true);
-    state.counters.steps += model.steps_per_frame;
-    state.excitation.elapsed += model.steps_per_frame;
+    state.counters.steps += model.shape->steps_per_frame;
+    state.excitation.elapsed += model.shape->steps_per_frame;
     if (state.near_frame.struck.empty()) return false;
     state.certificate.validity.outdated = true;
     run_impulses(model, state);

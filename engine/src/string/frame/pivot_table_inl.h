@@ -55,7 +55,7 @@ HWY_INLINE void add_rows(std::span<const std::uint32_t> list, const double* weig
 inline void note_pivot(const StringModel& model, PivotTable& table, std::size_t j, bool enters) {
     table.pivots += 1;
     table.sign[j] = enters ? 1 : -1;
-    table.scale[j] = enters ? model.compliance[j * model.contact_stride + j] : 1;
+    table.scale[j] = enters ? model.shape->compliance[j * model.shape->contact_stride + j] : 1;
     if (enters) {
         table.active.push(j);
     } else {
@@ -94,12 +94,12 @@ HWY_INLINE void scale_row(double* row, double scale, std::size_t stride, std::si
 ///     [ A_BB - A_BF A_FF^-1 A_FB    A_BF A_FF^-1 ]
 ///     [ A_FF^-1 A_FB                -A_FF^-1     ]    for the active contacts F and all others B.
 inline void sweep(const StringModel& model, PivotTable& table, std::size_t j) {
-    const std::size_t stride = model.contact_stride;
+    const std::size_t stride = model.shape->contact_stride;
     double* pivot_row = table.values.data() + j * stride;
     const double pivot = pivot_row[j];
     const double inverse = 1 / pivot;
     const double scale = std::abs(inverse);
-    for (std::size_t i = 0; i < model.contact_count; ++i) {
+    for (std::size_t i = 0; i < model.shape->contact_count; ++i) {
         const double entry = pivot_row[i];  // the table is symmetric
         if (i != j)
             eliminate(table.values.data() + i * stride, -entry * inverse, pivot_row, stride, j,
@@ -111,11 +111,11 @@ inline void sweep(const StringModel& model, PivotTable& table, std::size_t j) {
 
 /// The table of the operator itself: nothing is active.
 inline void begin_table(const StringModel& model, PivotTable& table) {
-    const std::size_t size = model.contact_count * model.contact_stride;
-    std::copy_n(model.compliance.data(), size, table.values.begin());
+    const std::size_t size = model.shape->contact_count * model.shape->contact_stride;
+    std::copy_n(model.shape->compliance.data(), size, table.values.begin());
     std::fill(table.sign.begin(), table.sign.end(), -1.0);
     std::fill(table.scale.begin(), table.scale.end(), 1.0);
-    table.of = model.compliance.data();
+    table.of = model.shape->compliance.data();
     table.active.clear();
     table.pivots = 0;
 }
@@ -163,10 +163,11 @@ inline std::size_t worst_of(const StringModel& model, const PivotTable& table, d
                        hn::Sub(hn::Load(d, table.solution.data() + c), allowed));
     };
     Vec least = zero;
-    for (std::size_t c = 0; c < model.contact_stride; c += hn::Lanes(d)) least = hn::Min(least, slack(c));
+    for (std::size_t c = 0; c < model.shape->contact_stride; c += hn::Lanes(d))
+        least = hn::Min(least, slack(c));
     const double worst = hn::GetLane(hn::MinOfLanes(d, least));
     if (!(worst < 0)) return none;
-    for (std::size_t c = 0; c < model.contact_stride; c += hn::Lanes(d)) {
+    for (std::size_t c = 0; c < model.shape->contact_stride; c += hn::Lanes(d)) {
         const std::intptr_t lane = hn::FindFirstTrue(d, hn::Eq(slack(c), hn::Set(d, worst)));
         if (lane >= 0) return c + static_cast<std::size_t>(lane);
     }

@@ -21,10 +21,10 @@ std::size_t linear_probes(const StringModel& model, std::span<double* const> out
                           std::span<Reading> readings) JAWARI_REALTIME {
     std::size_t count = 0;
     for (std::size_t p = 0; p < outputs.size(); ++p) {
-        const Quantity quantity = model.probes[p].quantity;
+        const Quantity quantity = model.shape->probes[p].quantity;
         if (quantity != Quantity::Displacement && quantity != Quantity::Velocity) continue;
-        readings[count++] = {model.probe_rows.data() + p * model.stride, quantity == Quantity::Velocity,
-                             outputs[p]};
+        readings[count++] = {model.shape->probe_rows.data() + p * model.shape->stride,
+                             quantity == Quantity::Velocity, outputs[p]};
     }
     return count;
 }
@@ -59,19 +59,19 @@ void render_string(const StringModel& model, StringState& state, std::span<doubl
 
 double probe_value(const StringModel& model, const StringState& state, std::size_t probe,
                    double frame_s) JAWARI_REALTIME {
-    JAWARI_ASSERT(probe < model.probes.size() && frame_s > 0);
-    const Quantity quantity = model.probes[probe].quantity;
+    JAWARI_ASSERT(probe < model.shape->probes.size() && frame_s > 0);
+    const Quantity quantity = model.shape->probes[probe].quantity;
     double value = 0;
     switch (quantity) {
         case Quantity::Displacement:
         case Quantity::Velocity: {
-            const Reading reading{model.probe_rows.data() + probe * model.stride,
+            const Reading reading{model.shape->probe_rows.data() + probe * model.shape->stride,
                                   quantity == Quantity::Velocity, &value};
             read_all(state, {&reading, 1}, 0);
             break;
         }
         case Quantity::ContactForce: {
-            const auto contact = model.contact_of_description[model.probes[probe].contact];
+            const auto contact = model.shape->contact_of_description[model.shape->probes[probe].contact];
             if (contact >= 0)
                 value = state.contact.frame_impulse[static_cast<std::size_t>(contact)] / frame_s;
             break;
@@ -85,7 +85,7 @@ double probe_value(const StringModel& model, const StringState& state, std::size
 
 void advance_frames(const StringModel& model, StringState& state, std::span<const Reading> readings,
                     ReadAt when, std::size_t frames) JAWARI_REALTIME {
-    JAWARI_ASSERT(state.displacement.size() >= model.stride);
+    JAWARI_ASSERT(state.displacement.size() >= model.shape->stride);
     for (std::size_t n = 0; n < frames;) {
         if (sleeps_on(state)) {
             for (const Reading& reading : readings) std::fill_n(reading.out + n, frames - n, 0.0);
@@ -113,7 +113,7 @@ void render(const SceneModel& model, SceneState& state, std::span<double* const>
     std::size_t first_output = 0;
     for (std::size_t s = 0; s < model.strings.size(); ++s) {
         const StringModel& string = model.strings[s];
-        const std::size_t probes = string.probes.size();
+        const std::size_t probes = string.shape->probes.size();
         render_string(string, state.strings[s], outputs.subspan(first_output, probes), frames,
                       1 / model.output_rate_hz);
         first_output += probes;
@@ -123,12 +123,12 @@ void render(const SceneModel& model, SceneState& state, std::span<double* const>
 
 void move_contact(const StringModel& model, StringState& state, std::size_t described, double height_m,
                   std::size_t steps) JAWARI_REALTIME {
-    JAWARI_ASSERT(described < model.contact_of_description.size());
-    const std::ptrdiff_t kept = model.contact_of_description[described];
+    JAWARI_ASSERT(described < model.shape->contact_of_description.size());
+    const std::ptrdiff_t kept = model.shape->contact_of_description[described];
     if (kept < 0) return;
     const auto contact = static_cast<std::size_t>(kept);
     ContactState& moved = state.contact;
-    const double sign = model.contact_side[contact] == Side::Below ? 1.0 : -1.0;
+    const double sign = model.shape->contact_side[contact] == Side::Below ? 1.0 : -1.0;
     const double distance = sign * height_m - moved.height[contact];
     moved.height_target[contact] = sign * height_m;
     moved.moving_steps[contact] = std::max<std::size_t>(steps, 1);

@@ -24,28 +24,32 @@ void place_all_gaps(const StringModel& model, StringState& state) {
     choose_all_contacts(model, state);
     place_gaps(model, state);
     // What lies between the contacts and the padding's end never closes.
-    const auto count = static_cast<std::ptrdiff_t>(model.contact_count);
-    const auto stride = static_cast<std::ptrdiff_t>(model.contact_stride);
+    const auto count = static_cast<std::ptrdiff_t>(model.shape->contact_count);
+    const auto stride = static_cast<std::ptrdiff_t>(model.shape->contact_stride);
     for (auto* array : {&contact.gap, &contact.gap_before})
         std::fill(array->begin() + count, array->begin() + stride, 1.0);
 }
 
 }  // namespace
 
-void set_short_frames(StringModel& model) {
-    const bool fits = model.contact_count <= contacts_with_own_bounds &&
-                      model.contact_stride * model.steps_per_frame <= largest_short_frame;
-    if (!fits || model.step_response.empty() || model.law != ImpactLaw::Signorini) return;
-    model.contact_columns.assign(model.stride * model.contact_stride, 0.0);
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
-        for (std::size_t k = 0; k < model.stride; ++k)
-            model.contact_columns[k * model.contact_stride + c] = model.contact_rows[c * model.stride + k];
+AlignedVector<double> columns_for_short_frames(const StringModel& model) {
+    const StringShape& shape = *model.shape;
+    AlignedVector<double> columns;
+    const bool fits = shape.contact_count <= contacts_with_own_bounds &&
+                      shape.contact_stride * shape.steps_per_frame <= largest_short_frame;
+    if (!fits || model.tuning.step_response.empty() || shape.law != ImpactLaw::Signorini) return columns;
+    columns.assign(shape.stride * shape.contact_stride, 0.0);
+    for (std::size_t c = 0; c < shape.contact_count; ++c) {
+        for (std::size_t k = 0; k < shape.stride; ++k)
+            columns[k * shape.contact_stride + c] = shape.contact_rows[c * shape.stride + k];
     }
+    return columns;
 }
 
 bool solve_short_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
     JAWARI_ASSERT(has_short_frames(model));
-    JAWARI_ASSERT(state.short_frame.rates.size() >= model.steps_per_frame * model.contact_stride);
+    JAWARI_ASSERT(state.short_frame.rates.size() >=
+                  model.shape->steps_per_frame * model.shape->contact_stride);
     ShortFrameState& frame = state.short_frame;
     if (frame.gaps_at != state.frame || state.frame % gap_period == 0) place_all_gaps(model, state);
     bool finite = kernels::run_freely(model, state);
@@ -54,15 +58,15 @@ bool solve_short_frame(const StringModel& model, StringState& state) JAWARI_REAL
     std::fill(open_until.begin(), open_until.end(), -std::numeric_limits<double>::infinity());
     const bool struck = !frame.struck.empty();
     if (struck) {
-        state.active_modes = model.stride;
+        state.active_modes = model.shape->stride;
         state.certificate.validity.outdated = true;
         forget_low_gaps(state);
         finite = kernels::add_response(model, state) && finite;
     }
     state.certificate.struck = struck;
     frame.gaps_at = state.frame + 1;
-    state.excitation.elapsed += model.steps_per_frame;
-    state.counters.steps += model.steps_per_frame;
+    state.excitation.elapsed += model.shape->steps_per_frame;
+    state.counters.steps += model.shape->steps_per_frame;
     state.counters.near_frames += 1;
     return finite;
 }
@@ -75,7 +79,7 @@ void forget_responses(StringState& state) JAWARI_REALTIME {
 void note_short_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
     JAWARI_ASSERT(state.short_frame.gaps_at == state.frame);
     GapBounds& bounds = state.certificate.bounds;
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
+    for (std::size_t c = 0; c < model.shape->contact_count; ++c) {
         bounds.frame_gap[c] = state.contact.gap[c];
         state.certificate.validity.frame_gap_at[c] = state.frame;
         bounds.open_until[c] = bounds.group_odometer[group_of(model, c)] + state.contact.gap[c];

@@ -15,11 +15,11 @@ inline constexpr std::size_t largest_short_frame = 256;
 
 /// Whether the model's frames can be solved as short ones.
 inline bool has_short_frames(const StringModel& model) {
-    return !model.contact_columns.empty();
+    return !model.shape->contact_columns.empty();
 }
 
-/// Fills model.contact_columns if the model's frames can be solved as short ones. Needs the step responses.
-void set_short_frames(StringModel& model);
+/// StringShape::contact_columns of a model with all its other tables: S^T where frames are short, else empty.
+AlignedVector<double> columns_for_short_frames(const StringModel& model);
 
 /// Solves the coming frame from the state at its start: displacement_flown, velocity_flown <- its end,
 /// certificate.struck <- whether impulses happened. Returns false if the state is not finite. Precondition:

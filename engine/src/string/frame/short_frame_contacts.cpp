@@ -33,10 +33,10 @@ HWY_INLINE Vec signorini_target(Lanes d, const ContactState& contact, Vec excuse
 HWY_INLINE double predict(const StringModel& model, StringState& state, std::size_t n, Vec excused) {
     const Lanes d;
     ContactState& contact = state.contact;
-    const double* rates = state.short_frame.rates.data() + n * model.contact_stride;
-    const Vec h = hn::Set(d, model.step_s);
+    const double* rates = state.short_frame.rates.data() + n * model.shape->contact_stride;
+    const Vec h = hn::Set(d, model.shape->step_s);
     Vec lowest = hn::Zero(d);
-    for (std::size_t c = 0; c < model.contact_stride; c += hn::Lanes(d)) {
+    for (std::size_t c = 0; c < model.shape->contact_stride; c += hn::Lanes(d)) {
         const Vec gap = hn::MulAdd(h, hn::Load(d, rates + c), hn::Load(d, contact.gap.data() + c));
         const Vec target = signorini_target(d, contact, excused, c);
         const Vec offset = hn::Sub(gap, target);
@@ -62,7 +62,8 @@ struct SumResiduals {
         const std::size_t lanes = hn::Lanes(d);
         Vec sum[vectors];
         for (std::size_t i = 0; i < vectors; ++i) sum[i] = hn::Load(d, contact.offset.data() + c + i * lanes);
-        add_rows(struck, contact.impulse.data(), model.compliance.data(), model.contact_stride, c, sum);
+        add_rows(struck, contact.impulse.data(), model.shape->compliance.data(), model.shape->contact_stride,
+                 c, sum);
         for (std::size_t i = 0; i < vectors; ++i)
             hn::Store(sum[i], d, contact.residual.data() + c + i * lanes);
     }
@@ -76,15 +77,15 @@ HWY_INLINE double take_impulses(const StringModel& model, StringState& state) {
     const PivotTable& table = state.short_frame.table;
     ContactState& contact = state.contact;
     const Vec zero = hn::Zero(d);
-    for (std::size_t c = 0; c < model.contact_stride; c += hn::Lanes(d)) {
+    for (std::size_t c = 0; c < model.shape->contact_stride; c += hn::Lanes(d)) {
         const auto active = hn::Gt(hn::Load(d, table.sign.data() + c), zero);
         Vec impulse = hn::Load(d, table.solution.data() + c);
         if constexpr (corrects) impulse = hn::Add(impulse, hn::Load(d, contact.impulse.data() + c));
         hn::Store(hn::IfThenElseZero(active, hn::Max(impulse, zero)), d, contact.impulse.data() + c);
     }
-    for_contacts(model.contact_stride, SumResiduals{model, contact, table.active.span()});
+    for_contacts(model.shape->contact_stride, SumResiduals{model, contact, table.active.span()});
     Vec largest = zero;
-    for (std::size_t c = 0; c < model.contact_stride; c += hn::Lanes(d)) {
+    for (std::size_t c = 0; c < model.shape->contact_stride; c += hn::Lanes(d)) {
         const auto active = hn::Gt(hn::Load(d, table.sign.data() + c), zero);
         const Vec residual = hn::Abs(hn::Load(d, contact.residual.data() + c));
         largest = hn::Max(largest, hn::IfThenElseZero(active, residual));
@@ -98,8 +99,8 @@ double settle_impulses(const StringModel& model, StringState& state, double tole
     const double residual = take_impulses<false>(model, state);
     if (!(residual > tolerance)) return residual;
     PivotTable& table = state.short_frame.table;
-    for_contacts(model.contact_stride, SolveTable{table, state.contact.residual.data(), model.contact_stride,
-                                                  table.solution.data()});
+    for_contacts(model.shape->contact_stride, SolveTable{table, state.contact.residual.data(),
+                                                         model.shape->contact_stride, table.solution.data()});
     return take_impulses<true>(model, state);
 }
 
@@ -108,10 +109,10 @@ double settle_impulses(const StringModel& model, StringState& state, double tole
 bool solve_by_pivots(const StringModel& model, StringState& state, double lowest) {
     PivotTable& table = state.short_frame.table;
     const double tolerance = -1e-13 * lowest;
-    const std::size_t stride = model.contact_stride;
-    if (table.of != model.compliance.data()) begin_table(model, table);
+    const std::size_t stride = model.shape->contact_stride;
+    if (table.of != model.shape->compliance.data()) begin_table(model, table);
     if (table.pivots > pivots_of_a_table) remake_table(model, table);
-    for (std::size_t pivots = 0; pivots <= 2 * model.contact_count; ++pivots) {
+    for (std::size_t pivots = 0; pivots <= 2 * model.shape->contact_count; ++pivots) {
         for_contacts(stride, SolveTable{table, state.contact.offset.data(), stride, table.solution.data()});
         const std::size_t j = worst_of(model, table, tolerance);
         if (j == none) {
@@ -120,7 +121,7 @@ bool solve_by_pivots(const StringModel& model, StringState& state, double lowest
             state.contact.left_open = residual;
             return residual <= -largest_relative_residual * lowest;
         }
-        const double least = dependent_pivot * model.compliance[j * stride + j];
+        const double least = dependent_pivot * model.shape->compliance[j * stride + j];
         if (table.sign[j] < 0 && !(table.values[j * stride + j] > least)) return false;
         sweep(model, table, j);
     }
@@ -131,10 +132,10 @@ bool solve_by_pivots(const StringModel& model, StringState& state, double lowest
 void solve_in_general(const StringModel& model, StringState& state) {
     ContactState& contact = state.contact;
     state.short_frame.table.of = nullptr;
-    contact.candidates.fill_to(model.contact_count);
+    contact.candidates.fill_to(model.shape->contact_count);
     solve_impulses(model, state);
     contact.candidates.filter([&](std::uint32_t c) { return contact.impulse[c] > 0; });
-    for_contacts(model.contact_stride, SumResiduals{model, contact, contact.candidates.span()});
+    for_contacts(model.shape->contact_stride, SumResiduals{model, contact, contact.candidates.span()});
 }
 
 /// The step's impulses and the contacts that have them.
@@ -151,8 +152,8 @@ Struck find_impulses(const StringModel& model, StringState& state, double lowest
 HWY_INLINE void keep_impulses(const StringModel& model, StringState& state, std::size_t n) {
     const Lanes d;
     ContactState& contact = state.contact;
-    double* kept = state.short_frame.impulses.data() + n * model.contact_stride;
-    for (std::size_t c = 0; c < model.contact_stride; c += hn::Lanes(d)) {
+    double* kept = state.short_frame.impulses.data() + n * model.shape->contact_stride;
+    for (std::size_t c = 0; c < model.shape->contact_stride; c += hn::Lanes(d)) {
         const Vec impulse = hn::Load(d, contact.impulse.data() + c);
         const Vec sum = hn::Add(hn::Load(d, contact.frame_impulse.data() + c), impulse);
         hn::Store(impulse, d, kept + c);
@@ -164,7 +165,7 @@ HWY_INLINE void keep_impulses(const StringModel& model, StringState& state, std:
 /// `struck` <- the contacts that had impulses in the frame.
 void list_struck(const StringModel& model, StringState& state) {
     IndexList& struck = state.short_frame.struck;
-    for (std::size_t c = 0; c < model.contact_count; ++c)
+    for (std::size_t c = 0; c < model.shape->contact_count; ++c)
         struck.push_if(state.contact.frame_impulse[c] > 0, c);
 }
 
@@ -189,7 +190,7 @@ struct SpreadImpulses {
 
 /// The table of responses that holds for the struck contacts.
 const double* responses_to(const StringModel& model, StringState& state, const Struck& struck) {
-    if (!model.step_response.empty()) return model.step_response.data();
+    if (!model.tuning.step_response.empty()) return model.tuning.step_response.data();
     const ShortFrameState& frame = state.short_frame;
     for (const auto c : struck) {
         if (frame.response_known[c] == 0) find_response(model, state, c);
@@ -198,11 +199,11 @@ const double* responses_to(const StringModel& model, StringState& state, const S
 }
 
 void spread_impulses(const StringModel& model, StringState& state, std::size_t n, const Struck& struck) {
-    if (n + 1 == model.steps_per_frame) return;
-    const std::size_t stride = model.contact_stride;
+    if (n + 1 == model.shape->steps_per_frame) return;
+    const std::size_t stride = model.shape->contact_stride;
     const double* table = responses_to(model, state, struck);
-    for (std::size_t later = n + 1; later < model.steps_per_frame; ++later) {
-        const double* responses = table + (later - n) * model.contact_count * stride;
+    for (std::size_t later = n + 1; later < model.shape->steps_per_frame; ++later) {
+        const double* responses = table + (later - n) * model.shape->contact_count * stride;
         for_contacts(stride, SpreadImpulses{struck, state.contact.impulse.data(), responses, stride,
                                             state.short_frame.rates.data() + later * stride});
     }
@@ -213,7 +214,7 @@ void spread_impulses(const StringModel& model, StringState& state, std::size_t n
 template <bool struck>
 HWY_INLINE Vec accept(const StringModel& model, ContactState& contact, Vec excused, Vec lowest) {
     const Lanes d;
-    for (std::size_t c = 0; c < model.contact_stride; c += hn::Lanes(d)) {
+    for (std::size_t c = 0; c < model.shape->contact_stride; c += hn::Lanes(d)) {
         Vec gap = hn::Load(d, contact.gap_free.data() + c);
         if constexpr (struck) {
             const Vec target = signorini_target(d, contact, excused, c);
@@ -231,7 +232,7 @@ bool solve_steps(const StringModel& model, StringState& state) {
     ContactState& contact = state.contact;
     Vec lowest = hn::Zero(d);
     bool any = false;
-    for (std::size_t n = 0; n < model.steps_per_frame; ++n) {
+    for (std::size_t n = 0; n < model.shape->steps_per_frame; ++n) {
         const Vec excused = hn::Set(d, excused_depth(model, contact));
         const double violation = predict(model, state, n, excused);
         if (violation < 0) {
@@ -241,20 +242,20 @@ bool solve_steps(const StringModel& model, StringState& state) {
             lowest = accept<true>(model, contact, excused, lowest);
             any = true;
         } else {
-            std::fill_n(contact.impulse.begin(), model.contact_stride, 0.0);
-            std::fill_n(
-                state.short_frame.impulses.begin() + static_cast<std::ptrdiff_t>(n * model.contact_stride),
-                model.contact_stride, 0.0);
+            std::fill_n(contact.impulse.begin(), model.shape->contact_stride, 0.0);
+            std::fill_n(state.short_frame.impulses.begin() +
+                            static_cast<std::ptrdiff_t>(n * model.shape->contact_stride),
+                        model.shape->contact_stride, 0.0);
             lowest = accept<false>(model, contact, excused, lowest);
         }
     }
     state.short_frame.struck.clear();
     if (any) list_struck(model, state);
-    state.counters.candidates += model.steps_per_frame * model.contact_count;
+    state.counters.candidates += model.shape->steps_per_frame * model.shape->contact_count;
     state.counters.worst_penetration_m =
         std::max(state.counters.worst_penetration_m, -hn::GetLane(hn::MinOfLanes(d, lowest)));
     Vec probe = hn::Zero(d);
-    for (std::size_t c = 0; c < model.contact_stride; c += hn::Lanes(d))
+    for (std::size_t c = 0; c < model.shape->contact_stride; c += hn::Lanes(d))
         probe = hn::MulAdd(hn::Load(d, contact.gap.data() + c), hn::Zero(d), probe);
     return hn::GetLane(hn::SumOfLanes(d, probe)) == 0;
 }

@@ -48,16 +48,17 @@ HWY_INLINE Vec move_block(const StringModel& model, StringState& state, std::siz
     const Lanes d;
     const std::size_t lanes = hn::Lanes(d);
     const ExcitationState& excitation = state.excitation;
-    const Vec h = hn::Set(d, model.step_s);
+    const Vec h = hn::Set(d, model.shape->step_s);
     Vec q[vectors], v[vectors], e[vectors], r[vectors], push[vectors], growth[vectors];
     for (std::size_t i = 0; i < vectors; ++i) {
         const std::size_t at = k + i * lanes;
         q[i] = hn::Load(d, state.displacement.data() + at);
         v[i] = hn::Load(d, state.velocity.data() + at);
-        e[i] = hn::Add(hn::Load(d, model.carry.data() + at), hn::Load(d, model.change.data() + at));
-        r[i] = hn::Load(d, model.restoring.data() + at);
+        e[i] = hn::Add(hn::Load(d, model.shape->carry.data() + at),
+                       hn::Load(d, model.shape->change.data() + at));
+        r[i] = hn::Load(d, model.tuning.restoring.data() + at);
         if constexpr (forced) {
-            const Vec mobility = hn::Mul(h, hn::Load(d, model.mobility.data() + at));
+            const Vec mobility = hn::Mul(h, hn::Load(d, model.shape->mobility.data() + at));
             const Vec rate = hn::Load(d, excitation.ramp.data() + at);
             const Vec elapsed = hn::Set(d, static_cast<double>(excitation.elapsed));
             push[i] = hn::Mul(mobility, hn::MulAdd(elapsed, rate, hn::Load(d, excitation.held.data() + at)));
@@ -65,7 +66,7 @@ HWY_INLINE Vec move_block(const StringModel& model, StringState& state, std::siz
         }
     }
     double* out = state.short_frame.velocities.data() + k;
-    for (std::size_t n = 0; n < model.steps_per_frame; ++n, out += model.stride) {
+    for (std::size_t n = 0; n < model.shape->steps_per_frame; ++n, out += model.shape->stride) {
         for (std::size_t i = 0; i < vectors; ++i) {
             if constexpr (forced) {
                 v[i] = hn::MulAdd(r[i], q[i], hn::MulAdd(e[i], v[i], push[i]));
@@ -109,9 +110,9 @@ HWY_INLINE void sum_rates(const StringModel& model, const StringState& state, Ra
                           std::size_t n) {
     const Lanes d;
     const std::size_t lanes = hn::Lanes(d);
-    const std::size_t stride = model.contact_stride;
-    const double* HWY_RESTRICT velocities = state.short_frame.velocities.data() + n * model.stride;
-    const double* HWY_RESTRICT column = model.contact_columns.data() + c;
+    const std::size_t stride = model.shape->contact_stride;
+    const double* HWY_RESTRICT velocities = state.short_frame.velocities.data() + n * model.shape->stride;
+    const double* HWY_RESTRICT column = model.shape->contact_columns.data() + c;
     Vec sum[steps][vectors];
     for (std::size_t j = 0; j < steps; ++j) {
         for (std::size_t i = 0; i < vectors; ++i) sum[j][i] = hn::Zero(d);
@@ -121,7 +122,7 @@ HWY_INLINE void sum_rates(const StringModel& model, const StringState& state, Ra
         Vec shape[vectors];
         for (std::size_t i = 0; i < vectors; ++i) shape[i] = hn::Load(d, column + i * lanes);
         for (std::size_t j = 0; j < steps; ++j) {
-            const Vec velocity = hn::Set(d, velocities[j * model.stride + k]);
+            const Vec velocity = hn::Set(d, velocities[j * model.shape->stride + k]);
             for (std::size_t i = 0; i < vectors; ++i) sum[j][i] = hn::MulAdd(shape[i], velocity, sum[j][i]);
         }
     }
@@ -142,31 +143,32 @@ struct SumRates {
     template <std::size_t vectors>
     HWY_INLINE void run(std::size_t c) const {
         std::size_t n = first;
-        for (; n + block_steps <= model.steps_per_frame; n += block_steps)
+        for (; n + block_steps <= model.shape->steps_per_frame; n += block_steps)
             sum_rates<vectors, block_steps>(model, state, rates, c, n);
-        for (; n < model.steps_per_frame; ++n) sum_rates<vectors, 1>(model, state, rates, c, n);
+        for (; n < model.shape->steps_per_frame; ++n) sum_rates<vectors, 1>(model, state, rates, c, n);
     }
 };
 
 bool run_freely(const StringModel& model, StringState& state) {
     const bool finite = is_excited(state) ? move_modes<true>(model, state) : move_modes<false>(model, state);
-    for_blocks(model.contact_stride,
-               SumRates{model, state, {state.short_frame.rates.data(), model.contact_stride}, 0});
+    for_blocks(model.shape->contact_stride,
+               SumRates{model, state, {state.short_frame.rates.data(), model.shape->contact_stride}, 0});
     return finite;
 }
 
 /// The velocities of all modes in the steps after an impulse of 1 N s.
 void respond_to_unit_impulse(const StringModel& model, StringState& state, std::size_t struck) {
     const Lanes d;
-    const Vec h = hn::Set(d, model.step_s);
-    const double* row = model.contact_rows.data() + struck * model.stride;
-    for (std::size_t k = 0; k < model.stride; k += hn::Lanes(d)) {
-        const Vec e = hn::Add(hn::Load(d, model.carry.data() + k), hn::Load(d, model.change.data() + k));
-        const Vec r = hn::Load(d, model.restoring.data() + k);
-        Vec v = hn::Mul(hn::Load(d, model.mobility.data() + k), hn::Load(d, row + k));
+    const Vec h = hn::Set(d, model.shape->step_s);
+    const double* row = model.shape->contact_rows.data() + struck * model.shape->stride;
+    for (std::size_t k = 0; k < model.shape->stride; k += hn::Lanes(d)) {
+        const Vec e =
+            hn::Add(hn::Load(d, model.shape->carry.data() + k), hn::Load(d, model.shape->change.data() + k));
+        const Vec r = hn::Load(d, model.tuning.restoring.data() + k);
+        Vec v = hn::Mul(hn::Load(d, model.shape->mobility.data() + k), hn::Load(d, row + k));
         Vec q = hn::Mul(h, v);
-        double* out = state.short_frame.velocities.data() + model.stride + k;
-        for (std::size_t n = 1; n < model.steps_per_frame; ++n, out += model.stride) {
+        double* out = state.short_frame.velocities.data() + model.shape->stride + k;
+        for (std::size_t n = 1; n < model.shape->steps_per_frame; ++n, out += model.shape->stride) {
             v = hn::MulAdd(r, q, hn::Mul(e, v));
             q = hn::MulAdd(h, v, q);
             hn::Store(v, d, out);
@@ -176,10 +178,11 @@ void respond_to_unit_impulse(const StringModel& model, StringState& state, std::
 
 void find_response(const StringModel& model, StringState& state, std::size_t struck) {
     respond_to_unit_impulse(model, state, struck);
-    const std::size_t stride = model.contact_stride;
-    const Rates rates{state.short_frame.step_response.data() + struck * stride, model.contact_count * stride};
+    const std::size_t stride = model.shape->contact_stride;
+    const Rates rates{state.short_frame.step_response.data() + struck * stride,
+                      model.shape->contact_count * stride};
     const std::size_t active_modes = state.active_modes;
-    state.active_modes = model.stride;
+    state.active_modes = model.shape->stride;
     for_blocks(stride, SumRates{model, state, rates, 1});
     state.active_modes = active_modes;
     state.short_frame.response_known[struck] = 1;
@@ -198,12 +201,12 @@ HWY_INLINE void sum_impulses(const StringModel& model, const StringState& state,
         for (std::size_t i = 0; i < vectors; ++i) drive[j][i] = hn::Zero(d);
     }
     for (const std::size_t c : frame.struck) {
-        const double* row = model.contact_rows.data() + c * model.stride + k;
-        const double* impulses = frame.impulses.data() + n * model.contact_stride + c;
+        const double* row = model.shape->contact_rows.data() + c * model.shape->stride + k;
+        const double* impulses = frame.impulses.data() + n * model.shape->contact_stride + c;
         Vec shape[vectors];
         for (std::size_t i = 0; i < vectors; ++i) shape[i] = hn::Load(d, row + i * lanes);
         for (std::size_t j = 0; j < steps; ++j) {
-            const Vec impulse = hn::Set(d, impulses[j * model.contact_stride]);
+            const Vec impulse = hn::Set(d, impulses[j * model.shape->contact_stride]);
             for (std::size_t i = 0; i < vectors; ++i)
                 drive[j][i] = hn::MulAdd(shape[i], impulse, drive[j][i]);
         }
@@ -215,13 +218,14 @@ HWY_INLINE void respond(const StringModel& model, const StringState& state, std:
                         Vec (&q)[vectors], Vec (&v)[vectors]) {
     const Lanes d;
     const std::size_t lanes = hn::Lanes(d);
-    const Vec h = hn::Set(d, model.step_s);
+    const Vec h = hn::Set(d, model.shape->step_s);
     Vec drive[steps][vectors];
     sum_impulses<vectors, steps>(model, state, k, n, drive);
     for (std::size_t i = 0; i < vectors; ++i) {
         const std::size_t at = k + i * lanes;
-        const Vec e = hn::Add(hn::Load(d, model.carry.data() + at), hn::Load(d, model.change.data() + at));
-        const Vec r = hn::Load(d, model.restoring.data() + at);
+        const Vec e = hn::Add(hn::Load(d, model.shape->carry.data() + at),
+                              hn::Load(d, model.shape->change.data() + at));
+        const Vec r = hn::Load(d, model.tuning.restoring.data() + at);
         for (std::size_t j = 0; j < steps; ++j) {
             v[i] = hn::MulAdd(r, q[i], hn::MulAdd(e, v[i], drive[j][i]));
             q[i] = hn::MulAdd(h, v[i], q[i]);
@@ -242,12 +246,12 @@ struct AddResponse {
         Vec q[vectors], v[vectors];
         for (std::size_t i = 0; i < vectors; ++i) q[i] = v[i] = hn::Zero(d);
         std::size_t n = 0;
-        for (; n + block_steps <= model.steps_per_frame; n += block_steps)
+        for (; n + block_steps <= model.shape->steps_per_frame; n += block_steps)
             respond<vectors, block_steps>(model, state, k, n, q, v);
-        for (; n < model.steps_per_frame; ++n) respond<vectors, 1>(model, state, k, n, q, v);
+        for (; n < model.shape->steps_per_frame; ++n) respond<vectors, 1>(model, state, k, n, q, v);
         for (std::size_t i = 0; i < vectors; ++i) {
             const std::size_t at = k + i * lanes;
-            const Vec mobility = hn::Load(d, model.mobility.data() + at);
+            const Vec mobility = hn::Load(d, model.shape->mobility.data() + at);
             const Vec q_end = hn::MulAdd(mobility, q[i], hn::Load(d, state.displacement_flown.data() + at));
             const Vec v_end = hn::MulAdd(mobility, v[i], hn::Load(d, state.velocity_flown.data() + at));
             hn::Store(q_end, d, state.displacement_flown.data() + at);
@@ -260,7 +264,7 @@ struct AddResponse {
 bool add_response(const StringModel& model, StringState& state) {
     const Lanes d;
     Vec probe = hn::Zero(d);
-    for_blocks(model.stride, AddResponse{model, state, probe});
+    for_blocks(model.shape->stride, AddResponse{model, state, probe});
     return hn::GetLane(hn::SumOfLanes(d, probe)) == 0;
 }
 

@@ -18,27 +18,27 @@ void remember(const StringModel& model, StringState& state) {
     if (state.metering == Metering::Step) {
         std::copy(state.displacement.begin(), state.displacement.end(), state.displacement_before.begin());
     }
-    if (model.scheme == Scheme::Theta) note_approach(model, state);
+    if (model.shape->scheme == Scheme::Theta) note_approach(model, state);
 }
 
 /// v_free = carry v + change v + restoring q + h (w/mu) phi(x) F
 void predict_velocity(const StringModel& model, StringState& state) {
-    kernels::free_velocity(state.active_modes, model.carry.data(), model.change.data(),
-                           model.restoring.data(), state.displacement.data(), state.velocity_before.data(),
-                           state.velocity.data());
+    kernels::free_velocity(state.active_modes, model.shape->carry.data(), model.shape->change.data(),
+                           model.tuning.restoring.data(), state.displacement.data(),
+                           state.velocity_before.data(), state.velocity.data());
     const ExcitationState& excitation = state.excitation;
     if (!excitation.active) return;
-    kernels::add_impulse(state.active_modes, model.step_s, model.mobility.data(), excitation.held.data(),
-                         state.velocity.data());
+    kernels::add_impulse(state.active_modes, model.shape->step_s, model.shape->mobility.data(),
+                         excitation.held.data(), state.velocity.data());
     if (!excitation.ramps) return;
-    kernels::add_impulse(state.active_modes, model.step_s * static_cast<double>(excitation.elapsed),
-                         model.mobility.data(), excitation.ramp.data(), state.velocity.data());
+    kernels::add_impulse(state.active_modes, model.shape->step_s * static_cast<double>(excitation.elapsed),
+                         model.shape->mobility.data(), excitation.ramp.data(), state.velocity.data());
 }
 
 /// Solves for lambda of the step. Contacts that lambda may push in become near, and the problem is solved
 /// again with them.
 void find_impulses(const StringModel& model, StringState& state) {
-    state.active_modes = model.stride;  // an impulse wakes every mode
+    state.active_modes = model.shape->stride;  // an impulse wakes every mode
     solve_impulses(model, state);
     while (admit_pushed_contacts(model, state)) {
         select_candidates(model, state);
@@ -49,11 +49,11 @@ void find_impulses(const StringModel& model, StringState& state) {
 
 /// q+ = q + h (theta v+ + (1 - theta) v)
 void advance_displacement(const StringModel& model, StringState& state) {
-    const double h = model.step_s;
-    kernels::add_scaled(state.active_modes, h * model.theta, state.velocity.data(),
+    const double h = model.shape->step_s;
+    kernels::add_scaled(state.active_modes, h * model.shape->theta, state.velocity.data(),
                         state.displacement.data());
-    if (model.theta < 1) {
-        kernels::add_scaled(state.active_modes, h * (1 - model.theta), state.velocity_before.data(),
+    if (model.shape->theta < 1) {
+        kernels::add_scaled(state.active_modes, h * (1 - model.shape->theta), state.velocity_before.data(),
                             state.displacement.data());
     }
 }
@@ -80,7 +80,7 @@ void step_near_contacts(const StringModel& model, StringState& state) JAWARI_REA
 }
 
 void step(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    JAWARI_ASSERT(state.displacement.size() >= model.stride);
+    JAWARI_ASSERT(state.displacement.size() >= model.shape->stride);
     // A frame leaves the gaps of most contacts unknown, and steps leave its bounds behind.
     if (state.contact.stepping_in_frame != state.frame) notice_change(model, state);
     step_near_contacts(model, state);

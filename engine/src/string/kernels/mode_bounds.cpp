@@ -40,7 +40,7 @@ bool add_force_response(std::size_t n, const FlightModel& flight, const double* 
     return hn::GetLane(hn::SumOfLanes(d, probe)) == 0;
 }
 
-ForceBounds force_bounds(std::size_t begin, std::size_t end, const CertificateModel& certificate,
+ForceBounds force_bounds(std::size_t begin, std::size_t end, const CertificateTuning& certificate,
                          const double* HWY_RESTRICT held, const double* HWY_RESTRICT ramp, double first,
                          double last) {
     const Lanes d;
@@ -64,7 +64,7 @@ ForceBounds force_bounds(std::size_t begin, std::size_t end, const CertificateMo
             hn::GetLane(hn::SumOfLanes(d, detour)), hn::GetLane(hn::SumOfLanes(d, variation))};
 }
 
-ForceBounds unit_force_bounds(std::size_t begin, std::size_t end, const CertificateModel& certificate) {
+ForceBounds unit_force_bounds(std::size_t begin, std::size_t end, const CertificateTuning& certificate) {
     const Lanes d;
     Vec speed = hn::Zero(d), extent = hn::Zero(d), detour = hn::Zero(d);
     for (std::size_t k = begin; k < end; k += hn::Lanes(d)) {
@@ -96,18 +96,18 @@ HWY_INLINE void add_response(std::size_t n, double scale, const double* HWY_REST
 template <bool mirrors>
 HWY_INLINE void spread_to(const StringModel& model, std::span<const std::uint32_t> near,
                           const StepImpulse& step, double* rates) {
-    const std::size_t later = model.steps_per_frame - step.step - 1;
+    const std::size_t later = model.shape->steps_per_frame - step.step - 1;
     for (const std::uint32_t c : near) {
         const Response response = response_of(model, step.struck, c);
         add_response<mirrors>(later, step.impulse, response.direct + 1, response.mirrored + 1,
                               rates + step.step + 1);
-        rates += model.response_stride;
+        rates += model.shape->response_stride;
     }
 }
 
 void spread_impulse(const StringModel& model, std::span<const std::uint32_t> near, const StepImpulse& step,
                     double* rates) {
-    if (model.grid_node.empty()) {
+    if (model.shape->grid_node.empty()) {
         spread_to<false>(model, near, step, rates);
     } else {
         spread_to<true>(model, near, step, rates);
@@ -118,8 +118,8 @@ LargestBounds mode_bounds(std::size_t n, const StringModel& model, const double*
                           const double* HWY_RESTRICT v, double* HWY_RESTRICT speed,
                           double* HWY_RESTRICT extent, double* HWY_RESTRICT detour) {
     const Lanes d;
-    const CertificateModel& certificate = model.certificate;
-    const Vec minus_half_step = hn::Set(d, -model.step_s / 2);
+    const CertificateTuning& certificate = model.tuning.certificate;
+    const Vec minus_half_step = hn::Set(d, -model.shape->step_s / 2);
     Vec largest_speed = hn::Zero(d);
     Vec largest_extent = hn::Zero(d);
     for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
@@ -154,13 +154,13 @@ bool add_force_response(std::size_t n, const FlightModel& flight, const double* 
     return HWY_DYNAMIC_DISPATCH(add_force_response)(n, flight, held, ramp, elapsed, q, v);
 }
 
-ForceBounds force_bounds(std::size_t begin, std::size_t end, const CertificateModel& certificate,
+ForceBounds force_bounds(std::size_t begin, std::size_t end, const CertificateTuning& certificate,
                          const double* held, const double* ramp, double first, double last) noexcept {
     return HWY_DYNAMIC_DISPATCH(force_bounds)(begin, end, certificate, held, ramp, first, last);
 }
 
 ForceBounds unit_force_bounds(std::size_t begin, std::size_t end,
-                              const CertificateModel& certificate) noexcept {
+                              const CertificateTuning& certificate) noexcept {
     return HWY_DYNAMIC_DISPATCH(unit_force_bounds)(begin, end, certificate);
 }
 

@@ -25,12 +25,12 @@ struct ForceBounds {
 };
 
 /// Over modes [begin, end), for modal forces held + n ramp, n from `first` to `last`.
-ForceBounds force_bounds(std::size_t begin, std::size_t end, const CertificateModel& certificate,
+ForceBounds force_bounds(std::size_t begin, std::size_t end, const CertificateTuning& certificate,
                          const double* held, const double* ramp, double first, double last) noexcept;
 
 /// The same for modal forces that stay at 1.
 ForceBounds unit_force_bounds(std::size_t begin, std::size_t end,
-                              const CertificateModel& certificate) noexcept;
+                              const CertificateTuning& certificate) noexcept;
 
 struct StepImpulse {
     std::size_t struck = 0;  ///< contact

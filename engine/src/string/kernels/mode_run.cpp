@@ -293,12 +293,12 @@ HWY_EXPORT(run_modes);
 
 ModeRun frame_run(const StringModel& model) noexcept {
     ModeRun run;
-    run.modes = model.stride;
-    run.steps = model.steps_per_frame;
-    run.step_s = model.step_s;
-    run.carry = model.carry.data();
-    run.change = model.change.data();
-    run.restoring = model.restoring.data();
+    run.modes = model.shape->stride;
+    run.steps = model.shape->steps_per_frame;
+    run.step_s = model.shape->step_s;
+    run.carry = model.shape->carry.data();
+    run.change = model.shape->change.data();
+    run.restoring = model.tuning.restoring.data();
     return run;
 }
 

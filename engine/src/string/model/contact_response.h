@@ -11,8 +11,8 @@ namespace jawari {
 
 /// A = h theta D
 inline ContactOperator compliance_of(const StringModel& model) {
-    return {model.compliance.data(), model.contact_stride,
-            model.grid_node.empty() ? nullptr : model.grid_node.data()};
+    return {model.shape->compliance.data(), model.shape->contact_stride,
+            model.shape->grid_node.empty() ? nullptr : model.shape->grid_node.data()};
 }
 
 /// Gap rate of a contact n steps after 1 N s at the struck one: direct[n] - mirrored[n] [1/kg].
@@ -22,13 +22,15 @@ struct Response {
 };
 
 inline Response response_of(const StringModel& model, std::size_t struck, std::size_t contact) {
-    const double* table = model.response.data();
-    const std::size_t stride = model.response_stride;
-    if (model.grid_node.empty()) {
-        const std::size_t nothing = model.contact_count * model.contact_count;  // the last row is zero
-        return {table + (struck * model.contact_count + contact) * stride, table + nothing * stride};
+    const double* table = model.tuning.response.data();
+    const std::size_t stride = model.shape->response_stride;
+    if (model.shape->grid_node.empty()) {
+        const std::size_t nothing =
+            model.shape->contact_count * model.shape->contact_count;  // the last row is zero
+        return {table + (struck * model.shape->contact_count + contact) * stride, table + nothing * stride};
     }
-    const auto [apart, together] = grid_distances(model.grid_node[struck], model.grid_node[contact]);
+    const auto [apart, together] =
+        grid_distances(model.shape->grid_node[struck], model.shape->grid_node[contact]);
     return {table + apart * stride, table + together * stride};
 }
 

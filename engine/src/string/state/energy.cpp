@@ -11,26 +11,26 @@ namespace {
 
 double energy_of(const StringModel& model, const AlignedVector<double>& displacement,
                  const AlignedVector<double>& velocity) {
-    const double lag = model.scheme == Scheme::Exact ? model.step_s / 2 : 0.0;
-    return kernels::energy(model.stride, model.kinetic.data(), model.potential.data(), lag,
-                           displacement.data(), velocity.data());
+    const double lag = model.shape->scheme == Scheme::Exact ? model.shape->step_s / 2 : 0.0;
+    return kernels::energy(model.shape->stride, model.tuning.kinetic.data(), model.tuning.potential.data(),
+                           lag, displacement.data(), velocity.data());
 }
 
 double dissipated_in_step(const StringModel& model, const StringState& state) {
-    const std::size_t n = model.stride;
+    const std::size_t n = model.shape->stride;
     const double* v_now = state.velocity.data();
     const double* v_before = state.velocity_before.data();
-    if (model.scheme == Scheme::Exact) {
+    if (model.shape->scheme == Scheme::Exact) {
         // mu sum (1-e)/(4w) (v+ + v)^2
-        return kernels::weighted_square(n, model.dissipation.data(), 1, v_now, 1, v_before);
+        return kernels::weighted_square(n, model.shape->dissipation.data(), 1, v_now, 1, v_before);
     }
     // mu sum [2 sigma h v_theta^2 + (theta - 1/2) (Dv^2 + omega^2 Dq^2)]; kinetic = mu/2, potential = mu
     // omega^2/2
-    const double theta = model.theta;
-    return kernels::weighted_square(n, model.dissipation.data(), theta, v_now, 1 - theta, v_before) +
+    const double theta = model.shape->theta;
+    return kernels::weighted_square(n, model.shape->dissipation.data(), theta, v_now, 1 - theta, v_before) +
            (2 * theta - 1) *
-               (kernels::weighted_square(n, model.kinetic.data(), 1, v_now, -1, v_before) +
-                kernels::weighted_square(n, model.potential.data(), 1, state.displacement.data(), -1,
+               (kernels::weighted_square(n, model.tuning.kinetic.data(), 1, v_now, -1, v_before) +
+                kernels::weighted_square(n, model.tuning.potential.data(), 1, state.displacement.data(), -1,
                                          state.displacement_before.data()));
 }
 
@@ -47,21 +47,24 @@ StepWork impulse_work(const StringModel& model, const StringState& state) {
     for (const auto c : contact.candidates) {
         const double impulse = contact.impulse[c];
         if (impulse <= 0) continue;
-        const double* row = model.contact_rows.data() + c * model.stride;
+        const double* row = model.shape->contact_rows.data() + c * model.shape->stride;
         double rise_now = 0;
         double rise_before = 0;
-        kernels::row_products(1, model.stride, model.stride, row, state.velocity.data(), &rise_now);
-        kernels::row_products(1, model.stride, model.stride, row, state.velocity_before.data(), &rise_before);
+        kernels::row_products(1, model.shape->stride, model.shape->stride, row, state.velocity.data(),
+                              &rise_now);
+        kernels::row_products(1, model.shape->stride, model.shape->stride, row, state.velocity_before.data(),
+                              &rise_before);
         const double raised = contact.height[c] - contact.height_before[c];
-        if (model.scheme == Scheme::Exact) {
+        if (model.shape->scheme == Scheme::Exact) {
             const double raised_twice = raised + contact.height_rise_before[c];
-            const double moved = model.step_s * (rise_now + rise_before);  // S (q+ - q_before)
-            work.contact += impulse * (moved - raised_twice) / (2 * model.step_s);
-            work.player += impulse * raised_twice / (2 * model.step_s);
+            const double moved = model.shape->step_s * (rise_now + rise_before);  // S (q+ - q_before)
+            work.contact += impulse * (moved - raised_twice) / (2 * model.shape->step_s);
+            work.player += impulse * raised_twice / (2 * model.shape->step_s);
         } else {
-            const double moved = model.step_s * (model.theta * rise_now + (1 - model.theta) * rise_before);
-            work.contact += impulse * (moved - raised) / model.step_s;
-            work.player += impulse * raised / model.step_s;
+            const double moved = model.shape->step_s *
+                                 (model.shape->theta * rise_now + (1 - model.shape->theta) * rise_before);
+            work.contact += impulse * (moved - raised) / model.shape->step_s;
+            work.player += impulse * raised / model.shape->step_s;
         }
     }
     return work;
@@ -71,18 +74,19 @@ StepWork impulse_work(const StringModel& model, const StringState& state) {
 double force_work(const StringModel& model, const StringState& state) {
     const ExcitationState& excitation = state.excitation;
     if (!excitation.active) return 0;
-    const double share = model.scheme == Scheme::Exact ? 0.5 : model.theta;
+    const double share = model.shape->scheme == Scheme::Exact ? 0.5 : model.shape->theta;
     const auto power = [&](const AlignedVector<double>& force) {
         double now = 0;
         double before = 0;
-        kernels::row_products(1, model.stride, model.stride, force.data(), state.velocity.data(), &now);
-        kernels::row_products(1, model.stride, model.stride, force.data(), state.velocity_before.data(),
-                              &before);
+        kernels::row_products(1, model.shape->stride, model.shape->stride, force.data(),
+                              state.velocity.data(), &now);
+        kernels::row_products(1, model.shape->stride, model.shape->stride, force.data(),
+                              state.velocity_before.data(), &before);
         return share * now + (1 - share) * before;
     };
     double work = power(excitation.held);
     if (excitation.ramps) work += static_cast<double>(excitation.elapsed) * power(excitation.ramp);
-    return model.step_s * work;
+    return model.shape->step_s * work;
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ TEST(InstrumentCompile, FirstPartialIsTheNoteOnEveryStringAndFret) {
             const double note = string.stopped[0].key + static_cast<double>(fret);
             EXPECT_EQ(string.stopped[fret].key, note);
             const double equal_tempered_hz = 440 * std::pow(2.0, (note - 69) / 12);
-            EXPECT_NEAR(string.stopped[fret].string.omega[0] / (2 * pi) / equal_tempered_hz, 1, 1e-13)
+            EXPECT_NEAR(string.stopped[fret].string.tuning.omega[0] / (2 * pi) / equal_tempered_hz, 1, 1e-13)
                 << string.name << " fret " << fret;
         }
     }
@@ -54,14 +54,14 @@ TEST(InstrumentCompile, PartialsStretchAndStopAtTheLimit) {
     const InstrumentDescription bass = bass_instrument();
     const StringModel& e = bass_model().strings[0].stopped[0].string;
     const double B = bass.strings[0].inharmonicity;
-    for (std::size_t k = 1; k <= e.mode_count; ++k) {
+    for (std::size_t k = 1; k <= e.shape->mode_count; ++k) {
         const double n = static_cast<double>(k);
         const double expected = n * std::sqrt((1 + B * n * n) / (1 + B));
-        EXPECT_NEAR(e.omega[k - 1] / e.omega[0] / expected, 1, 1e-12);
+        EXPECT_NEAR(e.tuning.omega[k - 1] / e.tuning.omega[0] / expected, 1, 1e-12);
     }
-    EXPECT_LE(e.omega[e.mode_count - 1] / (2 * pi), bass.quality.mode_limit_hz);
-    const double next = static_cast<double>(e.mode_count + 1);
-    EXPECT_GT(e.omega[0] / (2 * pi) * next * std::sqrt((1 + B * next * next) / (1 + B)),
+    EXPECT_LE(e.tuning.omega[e.shape->mode_count - 1] / (2 * pi), bass.quality.mode_limit_hz);
+    const double next = static_cast<double>(e.shape->mode_count + 1);
+    EXPECT_GT(e.tuning.omega[0] / (2 * pi) * next * std::sqrt((1 + B * next * next) / (1 + B)),
               bass.quality.mode_limit_hz);
 }
 
@@ -100,13 +100,13 @@ TEST(InstrumentCompile, FullVelocityLiftsTheStringAsHighAsSaid) {
         start_voice(model, string, voice, fret, 0, 0);
         strike_voice(model, string, voice, {.fret = fret, .velocity = 1}, 1);
         double highest = 0;
-        const double x = string.stopped[fret].string.length_m - 0.16;
+        const double x = string.stopped[fret].string.shape->length_m - 0.16;
         while (voice.touches.exciter.phase != ExciterPhase::None) {
             advance_voice(model, string, voice, 1, state);
             double lift = 0;
-            for (std::size_t k = 0; k < string.stopped[fret].string.mode_count; ++k) {
-                lift +=
-                    mode_shape(k + 1, x, string.stopped[fret].string.length_m) * voice.string.displacement[k];
+            for (std::size_t k = 0; k < string.stopped[fret].string.shape->mode_count; ++k) {
+                lift += mode_shape(k + 1, x, string.stopped[fret].string.shape->length_m) *
+                        voice.string.displacement[k];
             }
             highest = std::max(highest, lift);
         }
@@ -121,8 +121,8 @@ TEST(InstrumentCompile, NothingAboveTheOutputsNyquistRateIsHeard) {
     for (const InstrumentStringModel& string : model.strings) {
         const StoppedStringModel& open = string.stopped[0];
         bool above = false;
-        for (std::size_t k = 0; k < open.string.mode_count; ++k) {
-            if (open.string.omega[k] / (2 * pi) < 22050) continue;
+        for (std::size_t k = 0; k < open.string.shape->mode_count; ++k) {
+            if (open.string.tuning.omega[k] / (2 * pi) < 22050) continue;
             above = true;
             EXPECT_EQ(open.pickup_rows[k], 0);
         }
@@ -153,7 +153,7 @@ TEST(InstrumentCompile, FretsMayBeUnequalAndAnywhere) {
     bass.frets.semitones = {2, 4, 5};
     bass.frets.height_m = {-0.001, -0.0015, -0.002};
     const auto first_partial = [](const InstrumentDescription& described, std::size_t fret) {
-        return compile_instrument(described, 48000).value().strings[0].stopped[fret].string.omega[0] /
+        return compile_instrument(described, 48000).value().strings[0].stopped[fret].string.tuning.omega[0] /
                (2 * pi);
     };
     for (std::size_t fret = 1; fret <= 3; ++fret) {

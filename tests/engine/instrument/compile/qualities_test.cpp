@@ -46,12 +46,12 @@ double true_energy(const InstrumentModel& model, const InstrumentState& state) {
         for (const Voice& voice : state.strings[s].voices) {
             if (voice.phase == VoicePhase::Idle || voice.bend.active) continue;
             const StoppedStringModel& stopped = string.stopped[voice.fret];
-            for (std::size_t k = 0; k < stopped.string.mode_count; ++k) {
-                const double q = voice.string.displacement[k] - stopped.string.rest_displacement[k];
+            for (std::size_t k = 0; k < stopped.string.shape->mode_count; ++k) {
+                const double q = voice.string.displacement[k] - stopped.string.shape->rest_displacement[k];
                 const double u =
                     (voice.string.velocity[k] - stopped.backward_q[k] * q) / stopped.backward_u[k];
-                const double w = stopped.string.omega[k];
-                sum += 0.5 * stopped.string.linear_density_kg_per_m * (u * u + w * w * q * q);
+                const double w = stopped.string.tuning.omega[k];
+                sum += 0.5 * stopped.string.shape->linear_density_kg_per_m * (u * u + w * w * q * q);
             }
         }
     }
@@ -141,7 +141,8 @@ TEST(InstrumentQualities, AnotherContactRateGoesOnWithTheSameMotion) {
     slower.contact_rate_min_hz /= 4;
     slower.mode_limit_hz = instrument.quality.mode_limit_hz;
     const InstrumentModel model = with_qualities(instrument, {slower});
-    ASSERT_NE(model.lower[0][0].stopped[0].string.step_s, model.strings[0].stopped[0].string.step_s);
+    ASSERT_NE(model.lower[0][0].stopped[0].string.shape->step_s,
+              model.strings[0].stopped[0].string.shape->step_s);
     std::vector<double> sounds[2];
     for (const bool changed : {false, true}) {
         InstrumentState state = make_instrument_state(model);

@@ -98,10 +98,10 @@ TEST(Pickup, BridgeForceIsTensionTimesSlope) {
     Voice voice = make_voice(model.strings[0].sizes);
     start_voice(model, model.strings[0], voice, 0, 0, 0);
     const Pluck triangle{.position_m = 0.5, .height_m = 1e-3};
-    for (std::size_t k = 0; k < stopped.string.mode_count; ++k)
-        voice.string.displacement[k] = pluck_coordinate(k + 1, triangle, stopped.string.length_m);
-    voice.string.active_modes = stopped.string.stride;
-    const double L = stopped.string.length_m;
+    for (std::size_t k = 0; k < stopped.string.shape->mode_count; ++k)
+        voice.string.displacement[k] = pluck_coordinate(k + 1, triangle, stopped.string.shape->length_m);
+    voice.string.active_modes = stopped.string.shape->stride;
+    const double L = stopped.string.shape->length_m;
     const double tension = 4 * L * L * 41.20344461410875 * 41.20344461410875 * 0.0354;
     const double slope = 1e-3 / (L - 0.5);
     EXPECT_NEAR(bridge_force(stopped, voice.string), tension * slope, 3e-3 * tension * slope);
@@ -118,7 +118,7 @@ TEST(Pickup, QuantitiesMixAndMagnet) {
     start_voice(model, model.strings[0], voice, 0, 0, 0);
     voice.string.displacement[0] = 1e-3;
     voice.string.velocity[0] = 0.7;
-    const double L = stopped.string.length_m;
+    const double L = stopped.string.shape->length_m;
     const double near = mode_shape(1, 0.8 * L, L), far = mode_shape(1, 0.7 * L, L);
     const double gap = 1 - 1e-3 * near / 0.004;
     const double first = 2 * 0.7 * near;

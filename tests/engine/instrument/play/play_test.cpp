@@ -184,7 +184,7 @@ TEST(Release, DecaysInTheTimeThePresetSays) {
     bass.quality.mode_limit_hz = 3000;
     bass.hand.release_t60_s = 1.2;
     const InstrumentModel model = compile_instrument(bass, 48000).value();
-    const double own = model.strings[0].stopped[0].string.sigma[0];
+    const double own = model.strings[0].stopped[0].string.shape->sigma[0];
     for (const double velocity : {0.0, 0.5, 1.0}) {
         InstrumentState state = make_instrument_state(model);
         const auto x = play(model, state, {note_on(0, 33, 0.3), note_off(2000, 33, velocity)}, 48000).left;
@@ -296,9 +296,9 @@ TEST(Tuning, SetsPitchesAndMovesFretsWhenAsked) {
         const InstrumentModel model = compile_instrument(bass, 48000).value();
         const auto& stopped = model.strings[0].stopped;
         EXPECT_EQ(stopped[2].key, -1);
-        EXPECT_NEAR(stopped[5].string.omega[0], 2 * pi * 40 * std::exp2(0.5), 1e-9);
+        EXPECT_NEAR(stopped[5].string.tuning.omega[0], 2 * pi * 40 * std::exp2(0.5), 1e-9);
         const double expected = moves ? 0.863 * std::exp2(-0.5) : 0.863 * std::exp2(-5.0 / 12);
-        EXPECT_NEAR(stopped[5].string.length_m, expected, 1e-12);
+        EXPECT_NEAR(stopped[5].string.shape->length_m, expected, 1e-12);
         InstrumentState state = make_instrument_state(model);
         play(model, state, {note_on(0, 30, 0.5), note_on(0, 31, 0.5)}, 10);
         EXPECT_EQ(state.counters.ignored_notes, 1U);

@@ -118,7 +118,7 @@ TEST(InstrumentRender, AMotionIsTheCompiledStringUnderTheFingersForce) {
     const StoppedStringModel& stopped = model.strings[3].stopped[fret];
     const auto output = play({note_on(0, 43 + static_cast<int>(fret), 1)}, 1000);
     StringState state = make_string_state(stopped.string);
-    const double L = stopped.string.length_m;
+    const double L = stopped.string.shape->length_m;
     const double rise = std::ceil(0.004 * rate_hz), release = std::ceil(0.0005 * rate_hz);
     for (std::size_t n = 0; n < 1000; ++n) {
         double force = 0;  // the mean of 1000 samples within the frame
@@ -132,7 +132,7 @@ TEST(InstrumentRender, AMotionIsTheCompiledStringUnderTheFingersForce) {
             test::press(stopped.string, state, L - 0.16, stopped.full_force_N[0] * force);
         advance_frame(stopped.string, state);
         double expected = 0;
-        for (std::size_t k = 0; k < stopped.string.mode_count; ++k)
+        for (std::size_t k = 0; k < stopped.string.shape->mode_count; ++k)
             expected += 0.3 * stopped.pickup_rows[k] * state.velocity[k];
         ASSERT_NEAR(output[n], expected, 1e-6) << "frame " << n;
     }

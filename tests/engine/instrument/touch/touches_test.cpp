@@ -59,9 +59,9 @@ StringModel fretted_string() {
 
 void stir(const StringModel& model, StringState& state, std::mt19937& random) {
     std::normal_distribution<double> normal;
-    for (std::size_t k = 0; k < model.mode_count; ++k) {
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
         state.velocity[k] = normal(random) / static_cast<double>(k + 1);
-        state.displacement[k] = normal(random) / model.omega[k];
+        state.displacement[k] = normal(random) / model.tuning.omega[k];
     }
     notice_change(model, state);
 }
@@ -71,8 +71,8 @@ double spring_energy(const StringModel& model, const StringState& state, const T
     for (const Touch& touch : touches.touches) {
         if (!touch.active) continue;
         double w = 0;
-        for (std::size_t k = 0; k < model.mode_count; ++k)
-            w += touch.row[k] * (state.displacement[k] - model.step_s / 2 * state.velocity[k]);
+        for (std::size_t k = 0; k < model.shape->mode_count; ++k)
+            w += touch.row[k] * (state.displacement[k] - model.shape->step_s / 2 * state.velocity[k]);
         sum += touch.stiffness_N_per_m / 2 * (w - touch.rest_m) * (w - touch.rest_m);
     }
     return sum;
@@ -93,7 +93,7 @@ TEST(Touches, AreTheOnlyChangeOfEnergyAndNeverAddAny) {
     const StringModel model = lossless_string(120);
     for (int trial = 0; trial < 40; ++trial) {
         StringState state = make_string_state(model);
-        TouchState touches = make_touch_state(model.stride);
+        TouchState touches = make_touch_state(model.shape->stride);
         stir(model, state, random);
         const std::size_t count = 1 + static_cast<std::size_t>(trial) % touch_slots;
         for (std::size_t i = 0; i < count; ++i) {
@@ -122,7 +122,7 @@ TEST(Touches, ASpringAloneKeepsTheSumOfEnergies) {
     std::mt19937 random(9);
     const StringModel model = lossless_string(80);
     StringState state = make_string_state(model);
-    TouchState touches = make_touch_state(model.stride);
+    TouchState touches = make_touch_state(model.shape->stride);
     stir(model, state, random);
     lay_touch(model, state, touches, TouchSlot::Left, {.x_m = 0.2, .stiffness_N_per_m = 2000});
     const double start = energy(model, state) + spring_energy(model, state, touches);
@@ -138,15 +138,15 @@ TEST(Touches, AWeakDashpotDampsAsPerturbationTheorySays) {
     const double x = 0.21;
     for (const std::size_t k : {std::size_t{1}, std::size_t{2}, std::size_t{5}, std::size_t{11}}) {
         StringState state = make_string_state(model);
-        TouchState touches = make_touch_state(model.stride);
+        TouchState touches = make_touch_state(model.shape->stride);
         state.displacement[k - 1] = 1e-4;
         notice_change(model, state);
         lay_touch(model, state, touches, TouchSlot::Release, {.x_m = x, .damping_kg_per_s = c});
         const double start = energy(model, state);
         PlayerWork work;
         for (int frame = 0; frame < 24000; ++frame) play_frame(model, state, touches, work);
-        const double shape = mode_shape(k, x, model.length_m);
-        const double sigma = c * shape * shape / (2 * model.linear_density_kg_per_m);
+        const double shape = mode_shape(k, x, model.shape->length_m);
+        const double sigma = c * shape * shape / (2 * model.shape->linear_density_kg_per_m);
         EXPECT_NEAR(std::log(start / energy(model, state)) / 2 / 0.5, sigma, 0.01 * sigma) << "mode " << k;
     }
 }
@@ -154,7 +154,7 @@ TEST(Touches, AWeakDashpotDampsAsPerturbationTheorySays) {
 TEST(Touches, ComeAndLeaveGraduallyAndAreCountedDown) {
     const StringModel model = lossless_string(20);
     StringState state = make_string_state(model);
-    TouchState touches = make_touch_state(model.stride);
+    TouchState touches = make_touch_state(model.shape->stride);
     state.displacement[0] = 1e-4;
     notice_change(model, state);
     lay_touch(model, state, touches, TouchSlot::Left,
@@ -179,8 +179,8 @@ const HammerDescription felt{.mass_kg = 0.004, .stiffness = 4e8, .exponent = 2.5
 
 double felt_energy(const StringModel& model, const StringState& state, const ExciterState& hammer) {
     double w = 0;
-    for (std::size_t k = 0; k < model.mode_count; ++k)
-        w += hammer.row[k] * (state.displacement[k] - model.step_s / 2 * state.velocity[k]);
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k)
+        w += hammer.row[k] * (state.displacement[k] - model.shape->step_s / 2 * state.velocity[k]);
     const double xi = std::max(0.0, hammer.position_m - w);
     return hammer.stiffness * std::pow(xi, hammer.exponent + 1) / (hammer.exponent + 1);
 }
@@ -188,7 +188,7 @@ double felt_energy(const StringModel& model, const StringState& state, const Exc
 TEST(Hammer, StringHammerAndFeltShareTheirEnergy) {
     const StringModel model = lossless_string(150);
     StringState state = make_string_state(model);
-    TouchState touches = make_touch_state(model.stride);
+    TouchState touches = make_touch_state(model.shape->stride);
     begin_hammer(model, state, touches.exciter, 0.08, 0.01, felt, 3, 1);
     const ExciterState& hammer = touches.exciter;
     const double start = felt.mass_kg * 9 / 2;
@@ -210,7 +210,7 @@ TEST(Hammer, StringHammerAndFeltShareTheirEnergy) {
 TEST(Hammer, ALossyFeltLosesAndNeverPulls) {
     const StringModel model = lossless_string(150);
     StringState state = make_string_state(model);
-    TouchState touches = make_touch_state(model.stride);
+    TouchState touches = make_touch_state(model.shape->stride);
     HammerDescription lossy = felt;
     lossy.loss_s_per_m = 0.3;
     begin_hammer(model, state, touches.exciter, 0.08, 0, lossy, 3, 1);
@@ -242,7 +242,7 @@ TEST(Hammer, OnAnImmobileStringIsAMassOnASpring) {
     scene.strings.push_back(string);
     const StringModel model = test::compiled_string(scene);
     StringState state = make_string_state(model);
-    TouchState touches = make_touch_state(model.stride);
+    TouchState touches = make_touch_state(model.shape->stride);
     const HammerDescription spring{.mass_kg = 0.01, .stiffness = 1e4, .exponent = 1, .full_speed_m_per_s = 2};
     begin_hammer(model, state, touches.exciter, 0.5, 0, spring, 2, 1);
     PlayerWork work;
@@ -262,7 +262,7 @@ TEST(Hammer, OnAnImmobileStringIsAMassOnASpring) {
 TEST(Tangent, MovesTheStringAsItsEndDemands) {
     const StringModel model = lossless_string(40);
     StringState state = make_string_state(model);
-    TouchState touches = make_touch_state(model.stride);
+    TouchState touches = make_touch_state(model.shape->stride);
     const std::uint64_t rise = 96;
     const double height = 0.002;
     begin_tangent(model, touches.exciter, height, rise);
@@ -273,7 +273,7 @@ TEST(Tangent, MovesTheStringAsItsEndDemands) {
     const double T = static_cast<double>(rise) / 48000;
     const double end = frames / 48000.0;
     for (const std::size_t k : {std::size_t{1}, std::size_t{2}, std::size_t{3}, std::size_t{10}}) {
-        const double omega = model.omega[k - 1];
+        const double omega = model.tuning.omega[k - 1];
         double integral = 0;
         const int steps = 200000;
         for (int i = 0; i < steps; ++i) {
@@ -281,7 +281,7 @@ TEST(Tangent, MovesTheStringAsItsEndDemands) {
             const double b2 = height * 2 * pi / (T * T) * std::sin(2 * pi * s / T);
             integral += b2 * std::sin(omega * (end - s)) / omega * T / steps;
         }
-        const double g = std::sqrt(2 * model.length_m) / (static_cast<double>(k) * pi);
+        const double g = std::sqrt(2 * model.shape->length_m) / (static_cast<double>(k) * pi);
         EXPECT_NEAR(state.displacement[k - 1], -g * integral, 2e-3 * g * height) << "mode " << k;
     }
     EXPECT_NEAR(work.exciters_J, energy(model, state), 1e-9 * energy(model, state));
@@ -296,7 +296,7 @@ struct DampedPluck {
 
 DampedPluck damped_pluck(const StringModel& model, const Skipping& skipping, double height_m) {
     StringState state = make_string_state(model, Metering::Off, skipping);
-    TouchState touches = make_touch_state(model.stride);
+    TouchState touches = make_touch_state(model.shape->stride);
     PlayerWork work;
     for (std::size_t k = 0; k < 40; ++k) {
         const double n = static_cast<double>(k + 1);
@@ -356,17 +356,18 @@ TEST(Finger, ItsForceIsHalfACosineOnTheMean) {
 
 TEST(PointRow, IsTheMeanOfTheShapeOverTheWidth) {
     const StringModel model = lossless_string(200);
-    AlignedVector<double> row(model.stride, 7.0);
+    AlignedVector<double> row(model.shape->stride, 7.0);
     for (const double width : {0.0, 0.03}) {
-        write_point_row(model, model.stride, 0.123, width, row.data());
+        write_point_row(model, model.shape->stride, 0.123, width, row.data());
         for (const std::size_t k : {std::size_t{1}, std::size_t{7}, std::size_t{60}, std::size_t{200}}) {
             double mean = 0;
             for (int i = 0; i < 2000; ++i)
-                mean += mode_shape(k, 0.123 + width * ((i + 0.5) / 2000 - 0.5), model.length_m) / 2000;
+                mean += mode_shape(k, 0.123 + width * ((i + 0.5) / 2000 - 0.5), model.shape->length_m) / 2000;
             EXPECT_NEAR(row[k - 1], mean, 1e-5) << k;
         }
     }
-    EXPECT_EQ(row[model.stride - 1], model.mode_count == model.stride ? row[model.stride - 1] : 0);
+    EXPECT_EQ(row[model.shape->stride - 1],
+              model.shape->mode_count == model.shape->stride ? row[model.shape->stride - 1] : 0);
 }
 
 }  // namespace

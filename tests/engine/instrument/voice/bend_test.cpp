@@ -45,8 +45,8 @@ Voice ringing_voice(const InstrumentModel& model) {
 double bent_omega(const StoppedStringModel& stopped, std::size_t k, double semitones) {
     const double B = stopped.inharmonicity;
     const double n = static_cast<double>(k + 1);
-    const double f0 = stopped.string.omega[0] / std::sqrt(1 + B);  // without stiffness
-    const double first = std::exp2(semitones / 12) * stopped.string.omega[0];
+    const double f0 = stopped.string.tuning.omega[0] / std::sqrt(1 + B);  // without stiffness
+    const double first = std::exp2(semitones / 12) * stopped.string.tuning.omega[0];
     const double tension = (first * first / (f0 * f0)) - B;
     return f0 * n * std::sqrt(tension + B * n * n);
 }
@@ -57,11 +57,12 @@ TEST(Bend, TheReachOfEnergyGrowsByNoMoreThanItsFactor) {
     const StoppedStringModel& stopped = model.strings[0].stopped[0];
     const auto reach_of = [](const StringModel& string, std::size_t c) {
         double ends = 0, detours = 0;
-        for (std::size_t k = 0; k < string.mode_count; ++k) {
-            const double share = string.contact_rows[c * string.stride + k];
-            const double per_energy = string.certificate.stiffness[k] / string.potential[k] * share * share;
-            ends += per_energy * string.certificate.extent[k] * string.certificate.extent[k];
-            detours += per_energy * string.certificate.detour[k] * string.certificate.detour[k];
+        for (std::size_t k = 0; k < string.shape->mode_count; ++k) {
+            const double share = string.shape->contact_rows[c * string.shape->stride + k];
+            const double per_energy =
+                string.tuning.certificate.stiffness[k] / string.tuning.potential[k] * share * share;
+            ends += per_energy * string.tuning.certificate.extent[k] * string.tuning.certificate.extent[k];
+            detours += per_energy * string.tuning.certificate.detour[k] * string.tuning.certificate.detour[k];
         }
         return std::sqrt(ends) + std::sqrt(detours);
     };
@@ -70,9 +71,9 @@ TEST(Bend, TheReachOfEnergyGrowsByNoMoreThanItsFactor) {
         PlayerWork work;
         set_bend(stopped, voice, semitones, work);
         const StringModel& bent = voice.bend.model;
-        ASSERT_EQ(bent.certificate.reach.size(), bent.contact_count);
+        ASSERT_EQ(bent.shape->certificate.reach.size(), bent.shape->contact_count);
         const double now = reach_of(bent, 0);
-        const double claimed = bent.certificate.reach[0] * bent.certificate.reach_growth;
+        const double claimed = bent.shape->certificate.reach[0] * bent.tuning.certificate.reach_growth;
         EXPECT_LE(now, claimed * (1 + 1e-9)) << semitones;
         if (semitones < 0) {
             EXPECT_GE(now, 0.9 * claimed) << semitones;
@@ -88,25 +89,26 @@ TEST(Bend, EveryCoefficientIsThatOfTheStringAtItsTension) {
         PlayerWork work;
         set_bend(stopped, voice, semitones, work);
         const StringModel& bent = voice.bend.model;
-        const double h = bent.step_s;
-        for (std::size_t k = 0; k < bent.mode_count; ++k) {
+        const double h = bent.shape->step_s;
+        for (std::size_t k = 0; k < bent.shape->mode_count; ++k) {
             const double omega = bent_omega(stopped, k, semitones);
-            const double sigma = bent.sigma[k];
-            ASSERT_NEAR(bent.omega[k] / omega, 1, 1e-12);
-            const FlightFactors f = flight_factors(omega, sigma, h, bent.steps_per_frame);
+            const double sigma = bent.shape->sigma[k];
+            ASSERT_NEAR(bent.tuning.omega[k] / omega, 1, 1e-12);
+            const FlightFactors f = flight_factors(omega, sigma, h, bent.shape->steps_per_frame);
             const ExactFactors e = exact_factors(omega, sigma, h);
             // The mobility stays that of the compiled tension: forces answer as with another modal mass.
             const double mass =
-                exact_step(omega, sigma, h).mobility / model.strings[0].stopped[0].string.mobility[k];
-            ASSERT_NEAR(bent.flight.qq[k], f.qq, 1e-12);
-            ASSERT_NEAR(bent.flight.vv[k], f.vv, 1e-12);
-            ASSERT_NEAR(bent.flight.qv[k] / h, f.qv / h, 1e-10);
-            ASSERT_NEAR(bent.flight.vq[k] * h, f.vq * h, 1e-12);
-            ASSERT_NEAR(bent.restoring[k] * h, -e.d, 1e-13);
-            ASSERT_NEAR(bent.flight.q_held[k] / (f.q_held / mass), 1, 1e-8) << k;
-            ASSERT_NEAR(bent.flight.v_held[k] - f.v_held / mass, 0, 1e-8 * std::abs(f.q_held / mass) / h)
+                exact_step(omega, sigma, h).mobility / model.strings[0].stopped[0].string.shape->mobility[k];
+            ASSERT_NEAR(bent.tuning.flight.qq[k], f.qq, 1e-12);
+            ASSERT_NEAR(bent.tuning.flight.vv[k], f.vv, 1e-12);
+            ASSERT_NEAR(bent.tuning.flight.qv[k] / h, f.qv / h, 1e-10);
+            ASSERT_NEAR(bent.tuning.flight.vq[k] * h, f.vq * h, 1e-12);
+            ASSERT_NEAR(bent.tuning.restoring[k] * h, -e.d, 1e-13);
+            ASSERT_NEAR(bent.tuning.flight.q_held[k] / (f.q_held / mass), 1, 1e-8) << k;
+            ASSERT_NEAR(bent.tuning.flight.v_held[k] - f.v_held / mass, 0,
+                        1e-8 * std::abs(f.q_held / mass) / h)
                 << k;
-            ASSERT_NEAR(bent.flight.q_ramp[k] / (f.q_ramp / mass), 1, 1e-6) << k;
+            ASSERT_NEAR(bent.tuning.flight.q_ramp[k] / (f.q_ramp / mass), 1, 1e-6) << k;
             ASSERT_NEAR(voice.bend.backward_u[k], exact_backward_velocity(omega, sigma, h, 0, 1), 1e-12);
             ASSERT_NEAR(voice.bend.backward_q[k], exact_backward_velocity(omega, sigma, h, 1, 0),
                         1e-10 * omega);
@@ -124,22 +126,22 @@ double true_velocity(const StoppedStringModel& stopped, const Voice& voice, std:
 /// 1/2 mu sum (u^2 + omega^2 q^2) of the continuous motion.
 double true_energy(const StoppedStringModel& stopped, const Voice& voice, double semitones) {
     double sum = 0;
-    for (std::size_t k = 0; k < stopped.string.mode_count; ++k) {
+    for (std::size_t k = 0; k < stopped.string.shape->mode_count; ++k) {
         const double u = true_velocity(stopped, voice, k);
         const double omega = bent_omega(stopped, k, semitones);
         const double q = voice.string.displacement[k];
-        sum += stopped.string.linear_density_kg_per_m / 2 * (u * u + omega * omega * q * q);
+        sum += stopped.string.shape->linear_density_kg_per_m / 2 * (u * u + omega * omega * q * q);
     }
     return sum;
 }
 
 double parametric_work(const StoppedStringModel& stopped, const Voice& voice, double from, double to) {
     double sum = 0;
-    for (std::size_t k = 0; k < stopped.string.mode_count; ++k) {
+    for (std::size_t k = 0; k < stopped.string.shape->mode_count; ++k) {
         const double q = voice.string.displacement[k];
         const double a = bent_omega(stopped, k, from);
         const double b = bent_omega(stopped, k, to);
-        sum += stopped.string.linear_density_kg_per_m / 2 * (b * b - a * a) * q * q;
+        sum += stopped.string.shape->linear_density_kg_per_m / 2 * (b * b - a * a) * q * q;
     }
     return sum;
 }
@@ -177,7 +179,8 @@ TEST(Bend, ShapeAndTrueVelocityStayWhatTheyAre) {
     const AlignedVector<double> q = voice.string.displacement;
     const AlignedVector<double> v = voice.string.velocity;
     std::vector<double> u;
-    for (std::size_t k = 0; k < stopped.string.mode_count; ++k) u.push_back(true_velocity(stopped, voice, k));
+    for (std::size_t k = 0; k < stopped.string.shape->mode_count; ++k)
+        u.push_back(true_velocity(stopped, voice, k));
     PlayerWork work;
     for (const double semitones : {1.0, -2.0, 0.5}) {
         set_bend(stopped, voice, semitones, work);
@@ -186,7 +189,7 @@ TEST(Bend, ShapeAndTrueVelocityStayWhatTheyAre) {
             ASSERT_NEAR(true_velocity(stopped, voice, k), u[k], 1e-14) << k;
     }
     set_bend(stopped, voice, 0, work);
-    for (std::size_t k = 0; k < stopped.string.mode_count; ++k)
+    for (std::size_t k = 0; k < stopped.string.shape->mode_count; ++k)
         ASSERT_NEAR(voice.string.velocity[k], v[k], 1e-14);
     EXPECT_NEAR(work.bends_J, 0, 1e-12 * energy(stopped.string, voice.string));
 }
@@ -220,7 +223,7 @@ BentPluck bent_pluck(const InstrumentModel& model, const Skipping& skipping, dou
 
 /// Bent plucks at several speeds agree with uniform stepping, and both strike and fly.
 void expect_skipping_changes_nothing(const InstrumentModel& model, std::initializer_list<double> speeds) {
-    const double omega = model.strings[0].stopped[0].string.omega[0];
+    const double omega = model.strings[0].stopped[0].string.tuning.omega[0];
     std::uint64_t impulses = 0, flown = 0;
     for (const double speed : speeds) {
         const BentPluck skipped = bent_pluck(model, skip_all, speed);
@@ -256,9 +259,10 @@ InstrumentModel string_between_obstacles() {
 TEST(Bend, NearContactsAloneAreStruckAsAmongAll) {
     const InstrumentModel model = string_between_obstacles();
     const StringModel& open = model.strings[0].stopped[0].string;
-    ASSERT_GT(open.contact_count, 10U);
+    ASSERT_GT(open.shape->contact_count, 10U);
     ASSERT_FALSE(has_short_frames(open));
-    ASSERT_EQ(open.certificate.push_speed.size(), open.contact_count * open.contact_count);
+    ASSERT_EQ(open.shape->certificate.push_speed.size(),
+              open.shape->contact_count * open.shape->contact_count);
     expect_skipping_changes_nothing(model, {0.2, 0.5, 1.0, 2.0});
 }
 
@@ -270,7 +274,7 @@ TEST(Bend, ShortFramesAgreeWithUniformStepping) {
     const InstrumentModel model = compile_instrument(bass, 48000).value();
     const StringModel& open = model.strings[0].stopped[0].string;
     ASSERT_TRUE(has_short_frames(open));
-    ASSERT_GT(open.steps_per_frame, 2U);
+    ASSERT_GT(open.shape->steps_per_frame, 2U);
     expect_skipping_changes_nothing(model, {1.0, 2.0, 4.0, 8.0});
 }
 
@@ -286,14 +290,15 @@ TEST(Bend, PushesGrowByNoMoreThanTheirFactor) {
         PlayerWork work;
         set_bend(stopped, voice, semitones, work);
         const StringModel& bent = voice.bend.model;
-        for (std::size_t g = 0; g < bent.contact_count; ++g) {
-            for (std::size_t c = 0; c < bent.contact_count; ++c) {
+        for (std::size_t g = 0; g < bent.shape->contact_count; ++g) {
+            for (std::size_t c = 0; c < bent.shape->contact_count; ++c) {
                 double push = 0;
-                for (std::size_t k = 0; k < bent.mode_count; ++k)
-                    push += std::abs(bent.contact_rows[g * bent.stride + k] * bent.certificate.kick[k] *
-                                     bent.contact_rows[c * bent.stride + k]);
-                EXPECT_LE(push, bent.certificate.push[g * bent.contact_count + c] *
-                                    bent.certificate.push_growth * (1 + 1e-12));
+                for (std::size_t k = 0; k < bent.shape->mode_count; ++k)
+                    push += std::abs(bent.shape->contact_rows[g * bent.shape->stride + k] *
+                                     bent.tuning.certificate.kick[k] *
+                                     bent.shape->contact_rows[c * bent.shape->stride + k]);
+                EXPECT_LE(push, bent.tuning.certificate.push[g * bent.shape->contact_count + c] *
+                                    bent.tuning.certificate.push_growth * (1 + 1e-12));
             }
         }
     }

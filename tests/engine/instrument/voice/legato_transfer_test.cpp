@@ -25,8 +25,8 @@ InstrumentModel bass(std::size_t frets) {
 /// u at distance d from the bridge.
 double shape_at(const StringModel& model, const AlignedVector<double>& q, double d) {
     double u = 0;
-    for (std::size_t k = 0; k < model.mode_count; ++k)
-        u += mode_shape(k + 1, model.length_m - d, model.length_m) * q[k];
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k)
+        u += mode_shape(k + 1, model.shape->length_m - d, model.shape->length_m) * q[k];
     return u;
 }
 
@@ -42,7 +42,7 @@ void expect_projection(std::size_t from_fret, std::size_t to_fret) {
     Voice from = make_voice(string.sizes), to = make_voice(string.sizes);
     start_voice(model, string, from, from_fret, 0, 0);
     start_voice(model, string, to, to_fret, 0, 0);
-    AlignedVector<double> u(a.string.stride, 0.0);
+    AlignedVector<double> u(a.string.shape->stride, 0.0);
     for (std::size_t k = 0; k < 30; ++k) {
         from.string.displacement[k] =
             1e-3 * std::cos(static_cast<double>(k * k)) / std::pow(static_cast<double>(k + 1), 2);
@@ -54,17 +54,18 @@ void expect_projection(std::size_t from_fret, std::size_t to_fret) {
     carry_over(string, from, to, work);
     ASSERT_GT(before_J, 0);
     EXPECT_NEAR(work.transfers_J, energy(b.string, to.string) - before_J, 1e-9 * before_J);
-    const double shorter = std::min(a.string.length_m, b.string.length_m);
+    const double shorter = std::min(a.string.shape->length_m, b.string.shape->length_m);
     const double end_q = shape_at(a.string, from.string.displacement, shorter);
     const double end_u = shape_at(a.string, u, shorter);
-    const bool cut = b.string.length_m < a.string.length_m;
+    const bool cut = b.string.shape->length_m < a.string.shape->length_m;
     for (const std::size_t k : {std::size_t{1}, std::size_t{2}, std::size_t{5}, std::size_t{20}}) {
         double q_integral = 0, u_integral = 0;
         const int steps = 4000;
         for (int i = 0; i < steps; ++i) {
             const double d = shorter * (i + 0.5) / steps;
             const double ramp = cut ? d / shorter : 0;
-            const double phi = mode_shape(k, b.string.length_m - d, b.string.length_m) * shorter / steps;
+            const double phi =
+                mode_shape(k, b.string.shape->length_m - d, b.string.shape->length_m) * shorter / steps;
             q_integral += phi * (shape_at(a.string, from.string.displacement, d) - ramp * end_q);
             u_integral += phi * (shape_at(a.string, u, d) - ramp * end_u);
         }

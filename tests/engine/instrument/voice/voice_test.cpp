@@ -42,9 +42,9 @@ TEST(Action, LowersFretsAndNothingElse) {
     const Voice voice = voice_with_action(0.0013);
     const std::size_t frets = stopped().action_contacts.size();
     EXPECT_GE(frets, 5U);  // seven, but for those that the finger covers
-    EXPECT_LT(frets, stopped().string.contact_count);
-    for (std::size_t c = 0; c < stopped().string.contact_count; ++c) {
-        const double described = stopped().string.contact_height[c];
+    EXPECT_LT(frets, stopped().string.shape->contact_count);
+    for (std::size_t c = 0; c < stopped().string.shape->contact_count; ++c) {
+        const double described = stopped().string.shape->contact_height[c];
         EXPECT_DOUBLE_EQ(voice.string.contact.height[c], is_on_neck(c) ? described - 0.0013 : described);
     }
 }
@@ -53,7 +53,7 @@ TEST(Action, RaisesFretsNoHigherThanTheStringAtRest) {
     const Voice voice = voice_with_action(-0.002);
     std::size_t stopped_short = 0;
     for (const std::uint32_t c : stopped().action_contacts) {
-        const double described = stopped().string.contact_height[c];
+        const double described = stopped().string.shape->contact_height[c];
         const double height = voice.string.contact.height[c];
         ASSERT_LT(described, -1e-5);  // else the string would lie on it, and it would have to stay
         EXPECT_GE(height, described);

@@ -40,9 +40,9 @@ struct FreeMotion {
     Number A, e, h;
     Number q, v;
 
-    FreeMotion(const StringModel& model, double q0, double v0) : h(model.step_s), q(q0), v(v0) {
+    FreeMotion(const StringModel& model, double q0, double v0) : h(model.shape->step_s), q(q0), v(v0) {
         using std::cos, std::exp, std::sqrt;  // of long double; those of Digits50 are found by their argument
-        const Number omega = model.omega[0], sigma = model.sigma[0];
+        const Number omega = model.tuning.omega[0], sigma = model.shape->sigma[0];
         e = exp(Number(-2 * sigma * h));
         if (sigma <= omega) {
             A = 2 * exp(Number(-sigma * h)) *
@@ -78,7 +78,7 @@ TEST(Certificate, SpeedAndExtentBoundFreeMotion) {
     double tightest_speed = 0;
     for (int trial = 0; trial < 20000; ++trial) {
         const RandomMode mode = random_mode(random);
-        const std::size_t n = mode.model.stride;
+        const std::size_t n = mode.model.shape->stride;
         AlignedVector<double> q(n, 0.0), v(n, 0.0), speed(n), extent(n), detour(n);
         q[0] = mode.q;
         v[0] = mode.v;
@@ -101,8 +101,8 @@ TEST(Certificate, DetourBoundsTheDistanceFromTheChord) {
     double tightest = 0;
     for (int trial = 0; trial < 20000; ++trial) {
         const RandomMode mode = random_mode(random);
-        const std::size_t n = mode.model.stride;
-        const std::size_t m = mode.model.steps_per_frame;
+        const std::size_t n = mode.model.shape->stride;
+        const std::size_t m = mode.model.shape->steps_per_frame;
         AlignedVector<double> q(n, 0.0), v(n, 0.0), speed(n), extent(n), detour(n);
         q[0] = mode.q;
         v[0] = mode.v;
@@ -130,16 +130,16 @@ TEST(Certificate, AKickRaisesTheSpeedBoundByItsShare) {
     for (int trial = 0; trial < 5000; ++trial) {
         const RandomMode mode = random_mode(random);
         const StringModel& model = mode.model;
-        const std::size_t n = model.stride;
+        const std::size_t n = model.shape->stride;
         AlignedVector<double> q(n, 0.0), v(n, 0.0), before(n), after(n), extent(n), detour(n);
         q[0] = mode.q;
         v[0] = mode.v;
         kernels::mode_bounds(n, model, q.data(), v.data(), before.data(), extent.data(), detour.data());
         const double impulse = random.uniform(-1, 1) * std::abs(mode.v);
-        v[0] += model.mobility[0] * impulse;
-        q[0] += model.step_s * model.mobility[0] * impulse;
+        v[0] += model.shape->mobility[0] * impulse;
+        q[0] += model.shape->step_s * model.shape->mobility[0] * impulse;
         kernels::mode_bounds(n, model, q.data(), v.data(), after.data(), extent.data(), detour.data());
-        ASSERT_LE(after[0], (before[0] + model.certificate.kick[0] * std::abs(impulse)) * (1 + 1e-9))
+        ASSERT_LE(after[0], (before[0] + model.tuning.certificate.kick[0] * std::abs(impulse)) * (1 + 1e-9))
             << "trial " << trial;
     }
 }
@@ -149,16 +149,17 @@ TEST(Certificate, FlightIsTheStepsTaken) {
     for (int trial = 0; trial < 1000; ++trial) {
         const RandomMode mode = random_mode(random);
         const StringModel& model = mode.model;
-        const std::size_t n = model.stride;
+        const std::size_t n = model.shape->stride;
         AlignedVector<double> q(n, 0.0), v(n, 0.0), q_end(n), v_end(n), speed(n), extent(n), detour(n);
         q[0] = mode.q;
         v[0] = mode.v;
         kernels::mode_bounds(n, model, q.data(), v.data(), speed.data(), extent.data(), detour.data());
-        ASSERT_TRUE(kernels::fly(n, model.flight, q.data(), v.data(), q_end.data(), v_end.data()));
+        ASSERT_TRUE(kernels::fly(n, model.tuning.flight, q.data(), v.data(), q_end.data(), v_end.data()));
         FreeMotion<Digits50> motion(model, q[0], v[0]);
-        for (std::size_t step = 0; step < model.steps_per_frame; ++step) motion.step();
+        for (std::size_t step = 0; step < model.shape->steps_per_frame; ++step) motion.step();
         // The phase is right to rounding of omega times the frame's length.
-        const double phase = model.omega[0] * model.step_s * static_cast<double>(model.steps_per_frame);
+        const double phase =
+            model.tuning.omega[0] * model.shape->step_s * static_cast<double>(model.shape->steps_per_frame);
         const double tolerance = 1e-15 * (10 + 10 * phase);
         EXPECT_NEAR(q_end[0], static_cast<double>(motion.q), tolerance * (extent[0] + std::abs(q[0])))
             << "trial " << trial;
@@ -172,14 +173,14 @@ TEST(Certificate, FlightIsTheStepsTaken) {
 void expect_true_claims(const StringModel& model, std::size_t frames, const std::string& what) {
     StringState state = make_string_state(model);
     const GapBounds& bounds = state.certificate.bounds;
-    const std::vector<std::size_t>& begin = model.certificate.group_begin;
+    const std::vector<std::size_t>& begin = model.shape->certificate.group_begin;
     for (std::size_t n = 0; n < frames; ++n) {
         advance_frame(model, state);
         for (std::size_t g = 0; g + 1 < begin.size(); ++g) {
             for (std::size_t c = begin[g]; c < begin[g + 1]; ++c) {
                 long double gap = -state.contact.height[c];
-                for (std::size_t k = 0; k < model.mode_count; ++k) {
-                    gap += static_cast<long double>(model.contact_rows[c * model.stride + k]) *
+                for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
+                    gap += static_cast<long double>(model.shape->contact_rows[c * model.shape->stride + k]) *
                            state.displacement[k];
                 }
                 const double claim = bounds.open_until[c] - bounds.group_odometer[g];
@@ -226,22 +227,23 @@ TEST(Certificate, EnergyBoundsEveryGap) {
         SceneDescription scene = random.scene(ImpactLaw::Signorini, 48000, 1e6);
         for (ContactDescription& contact : scene.strings[0].contacts) contact.height_m = -1;  // out of reach
         const StringModel model = test::compiled_string(scene);
-        for (std::size_t c = 0; c < std::min<std::size_t>(model.contact_count, 3); ++c) {
-            const double* row = model.contact_rows.data() + c * model.stride;
+        for (std::size_t c = 0; c < std::min<std::size_t>(model.shape->contact_count, 3); ++c) {
+            const double* row = model.shape->contact_rows.data() + c * model.shape->stride;
             const bool worst = seed % 2 == 0;
             StringState state = make_string_state(model, Metering::Off, skip_nothing);
-            for (std::size_t k = 0; k < model.mode_count; ++k) {
+            for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
                 state.velocity[k] = worst ? 0 : random.uniform(-1, 1);
-                state.displacement[k] =
-                    worst ? -row[k] / model.potential[k] : random.uniform(-1, 1) / model.omega[k];
+                state.displacement[k] = worst ? -row[k] / model.tuning.potential[k]
+                                              : random.uniform(-1, 1) / model.tuning.omega[k];
             }
             notice_change(model, state);
-            const double bound = model.certificate.reach[c] * std::sqrt(energy(model, state));
+            const double bound = model.shape->certificate.reach[c] * std::sqrt(energy(model, state));
             double lowest = 0;
             for (int n = 0; n < 20; ++n) {
-                for (state.steps_left = model.steps_per_frame; state.steps_left > 0;) {
+                for (state.steps_left = model.shape->steps_per_frame; state.steps_left > 0;) {
                     double sum = 0;
-                    for (std::size_t k = 0; k < model.mode_count; ++k) sum += row[k] * state.displacement[k];
+                    for (std::size_t k = 0; k < model.shape->mode_count; ++k)
+                        sum += row[k] * state.displacement[k];
                     lowest = std::min(lowest, sum);
                     step(model, state);
                 }
@@ -263,22 +265,24 @@ TEST(Certificate, ForcesBendAFrameByNoMoreThanTheirReach) {
         scene.strings[0].initial.shape = AtRest{};
         const StringModel model = test::compiled_string(scene);
         StringState state = make_string_state(model, Metering::Off, skip_nothing);
-        test::press(model, state, random.uniform(0.1, 0.9) * model.length_m, 1);
-        for (std::size_t c = 0; c < std::min<std::size_t>(model.contact_count, 3); ++c) {
-            const double* row = model.contact_rows.data() + c * model.stride;
+        test::press(model, state, random.uniform(0.1, 0.9) * model.shape->length_m, 1);
+        for (std::size_t c = 0; c < std::min<std::size_t>(model.shape->contact_count, 3); ++c) {
+            const double* row = model.shape->contact_rows.data() + c * model.shape->stride;
             const auto place = [&] {
                 double sum = 0;
-                for (std::size_t k = 0; k < model.mode_count; ++k) sum += row[k] * state.displacement[k];
+                for (std::size_t k = 0; k < model.shape->mode_count; ++k)
+                    sum += row[k] * state.displacement[k];
                 return sum;
             };
             StringState rest = state;
             std::vector<double> path{0};
-            for (state.steps_left = model.steps_per_frame; state.steps_left > 0;) {
+            for (state.steps_left = model.shape->steps_per_frame; state.steps_left > 0;) {
                 step(model, state);
                 path.push_back(place());
             }
             const double ends = std::min(path.front(), path.back());
-            EXPECT_GE(*std::min_element(path.begin(), path.end()), ends - model.certificate.force_reach);
+            EXPECT_GE(*std::min_element(path.begin(), path.end()),
+                      ends - model.tuning.certificate.force_reach);
             state = rest;
         }
     }
@@ -290,19 +294,20 @@ TEST(Certificate, StrengthBoundsWhatForcesDoToEachMode) {
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
         test::RandomScene random(seed);
         const StringModel model = test::compiled_string(random.scene(ImpactLaw::Signorini, 48000, 1e6));
-        std::vector<AlignedVector<double>> rows(1 + seed % 3, AlignedVector<double>(model.stride));
+        std::vector<AlignedVector<double>> rows(1 + seed % 3, AlignedVector<double>(model.shape->stride));
         std::vector<const double*> row_of;
         std::vector<double> force_N;
         for (AlignedVector<double>& row : rows) {
-            const double x = random.uniform(0.05, 0.95) * model.length_m;
-            write_point_row(model, model.stride, x, random.uniform(0, 0.02) * model.length_m, row.data());
+            const double x = random.uniform(0.05, 0.95) * model.shape->length_m;
+            write_point_row(model, model.shape->stride, x, random.uniform(0, 0.02) * model.shape->length_m,
+                            row.data());
             row_of.push_back(row.data());
             force_N.push_back(random.uniform(-2, 2));
         }
         const auto kicks_of = [&](bool passive) {
             StringState state = make_string_state(model);
-            hold_forces(state, {rows.size(), force_N.data(), row_of.data()}, model.stride, model.stride,
-                        passive);
+            hold_forces(state, {rows.size(), force_N.data(), row_of.data()}, model.shape->stride,
+                        model.shape->stride, passive);
             add_kicks(model, state);
             return state.certificate.bounds.kicks;
         };

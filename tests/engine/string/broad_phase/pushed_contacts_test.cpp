@@ -33,8 +33,8 @@ Struck struck_string(double growth) {
     }
     Struck struck{test::compiled_string(scene), {}, 0};
     StringModel& model = struck.model;
-    model.certificate.push = model.certificate.push_speed;  // as a retuned string's
-    model.certificate.push_growth = growth;
+    model.tuning.certificate.push = model.shape->certificate.push_speed;  // as a retuned string's
+    model.tuning.certificate.push_growth = growth;
     struck.state = make_string_state(model);
     StringState& state = struck.state;
     state.contact.near.fill_to(1);
@@ -43,10 +43,10 @@ Struck struck_string(double growth) {
     state.contact.impulse[0] = 0.003;
     state.steps_left = 7;
     double speed = 0;
-    for (std::size_t k = 0; k < model.mode_count; ++k)
-        speed += std::abs(model.contact_rows[k] * model.certificate.kick[k] *
-                          model.contact_rows[model.stride + k]);
-    struck.pushed_m = growth * speed * 0.003 * 7 * model.step_s;
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k)
+        speed += std::abs(model.shape->contact_rows[k] * model.tuning.certificate.kick[k] *
+                          model.shape->contact_rows[model.shape->stride + k]);
+    struck.pushed_m = growth * speed * 0.003 * 7 * model.shape->step_s;
     return struck;
 }
 
@@ -83,22 +83,23 @@ TEST(Push, ImpulsesOfAFrameAddUp) {
 /// How far 1 N s at a contact lowers the gaps of a group within the frame, step by step; Newton's law acts on
 /// what the gap would be half a step later.
 double stepped_push(const StringModel& model, std::size_t struck, std::size_t first, std::size_t last) {
-    const std::size_t n = model.stride;
+    const std::size_t n = model.shape->stride;
     StringState state = make_string_state(model, Metering::Off, skip_nothing);
-    for (std::size_t k = 0; k < model.mode_count; ++k) {
-        state.velocity[k] = model.mobility[k] * model.contact_rows[struck * n + k];
-        state.displacement[k] = model.step_s * state.velocity[k];
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
+        state.velocity[k] = model.shape->mobility[k] * model.shape->contact_rows[struck * n + k];
+        state.displacement[k] = model.shape->step_s * state.velocity[k];
     }
     notice_change(model, state);
-    const double ahead_s = model.law == ImpactLaw::Newton ? model.step_s / 2 : 0;
+    const double ahead_s = model.shape->law == ImpactLaw::Newton ? model.shape->step_s / 2 : 0;
     double lowest = 0;
-    for (std::size_t step_count = 0; step_count < model.steps_per_frame; ++step_count) {
+    for (std::size_t step_count = 0; step_count < model.shape->steps_per_frame; ++step_count) {
         if (step_count > 0) step(model, state);
         for (std::size_t c = first; c < last; ++c) {
-            const double* row = model.contact_rows.data() + c * n;
+            const double* row = model.shape->contact_rows.data() + c * n;
             const double gap =
-                std::inner_product(row, row + model.mode_count, state.displacement.begin(), 0.0);
-            const double rate = std::inner_product(row, row + model.mode_count, state.velocity.begin(), 0.0);
+                std::inner_product(row, row + model.shape->mode_count, state.displacement.begin(), 0.0);
+            const double rate =
+                std::inner_product(row, row + model.shape->mode_count, state.velocity.begin(), 0.0);
             lowest = std::min({lowest, gap, gap + ahead_s * rate});
         }
     }
@@ -114,14 +115,14 @@ TEST(Push, TabulatedOnesAreWhatSteppingShows) {
             const std::vector<ProfilePoint> far{{0, -1}, {0.7 * string.length_m, -1}};
             string.contacts = sampled_neck(string.length_m, contacts, far, 0);
             const StringModel model = test::compiled_string(scene);
-            ASSERT_EQ(model.contact_count, contacts);
-            const std::vector<std::size_t>& begin = model.certificate.group_begin;
+            ASSERT_EQ(model.shape->contact_count, contacts);
+            const std::vector<std::size_t>& begin = model.shape->certificate.group_begin;
             const std::size_t groups = begin.size() - 1;
             double largest = 0;
-            for (const double push : model.certificate.push) largest = std::max(largest, push);
+            for (const double push : model.tuning.certificate.push) largest = std::max(largest, push);
             for (std::size_t g = 0; g < groups; g += 1 + groups / 7) {
                 for (std::size_t struck = 0; struck < contacts; struck += 1 + contacts / 5) {
-                    EXPECT_NEAR(model.certificate.push[g * contacts + struck],
+                    EXPECT_NEAR(model.tuning.certificate.push[g * contacts + struck],
                                 stepped_push(model, struck, begin[g], begin[g + 1]), 1e-9 * largest)
                         << "group " << g << ", contact " << struck;
                 }

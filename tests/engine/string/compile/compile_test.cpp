@@ -24,12 +24,12 @@ TEST(Compile, DropsContactsThatSitOnTheStringsEnds) {
                                  {0.863, 0, 0, Side::Below},    {0.4, 2e-3, 0.2, Side::Above},
                                  {0.863, 1e-3, 0, Side::Above}, {1e-9, -1e-3, 0, Side::Below}};
     const StringModel model = test::compiled_string(scene);
-    EXPECT_EQ(model.contact_count, 2U);
-    EXPECT_EQ(model.contact_of_description, (std::vector<std::ptrdiff_t>{-1, 0, -1, 1, -1, -1}));
-    EXPECT_EQ(model.contact_position, (std::vector<double>{0.2, 0.4}));
-    EXPECT_EQ(model.contact_restitution, (std::vector<double>{0.1, 0.2}));
-    EXPECT_EQ(model.contact_height, (std::vector<double>{-1e-3, -2e-3}));  // gap = -u + 2 mm
-    EXPECT_EQ(model.contact_stride, 8U);
+    EXPECT_EQ(model.shape->contact_count, 2U);
+    EXPECT_EQ(model.shape->contact_of_description, (std::vector<std::ptrdiff_t>{-1, 0, -1, 1, -1, -1}));
+    EXPECT_EQ(model.shape->contact_position, (std::vector<double>{0.2, 0.4}));
+    EXPECT_EQ(model.shape->contact_restitution, (std::vector<double>{0.1, 0.2}));
+    EXPECT_EQ(model.shape->contact_height, (std::vector<double>{-1e-3, -2e-3}));  // gap = -u + 2 mm
+    EXPECT_EQ(model.shape->contact_stride, 8U);
 }
 
 TEST(Compile, RefusesContactsThatLiftTheStringsEnds) {
@@ -52,7 +52,7 @@ TEST(Compile, AllowsCoincidentContacts) {
     scene.strings[0].contacts.assign(5, {0.3, -1e-3, 0, Side::Below});
     scene.strings[0].contacts.push_back({0.3, 3e-3, 0, Side::Above});
     const StringModel model = test::compiled_string(scene);
-    EXPECT_EQ(model.contact_count, 6U);
+    EXPECT_EQ(model.shape->contact_count, 6U);
     StringState state = make_string_state(model, Metering::Step);
     for (int n = 0; n < 5000; ++n) step(model, state);
     EXPECT_GT(state.counters.impulses, 0U);
@@ -65,12 +65,12 @@ TEST(Compile, ArraysArePaddedWithModesAtRest) {
         SceneDescription scene = bass(modes);
         scene.strings[0].contacts.push_back({0.3, -1e-3, 0, Side::Below});
         const StringModel model = test::compiled_string(scene);
-        EXPECT_EQ(model.mode_count, modes);
-        EXPECT_EQ(model.stride % 8, 0U);
-        EXPECT_LT(model.stride, modes + 8);
+        EXPECT_EQ(model.shape->mode_count, modes);
+        EXPECT_EQ(model.shape->stride % 8, 0U);
+        EXPECT_LT(model.shape->stride, modes + 8);
         StringState state = make_string_state(model);
         for (int n = 0; n < 100; ++n) step(model, state);
-        for (std::size_t k = modes; k < model.stride; ++k) {
+        for (std::size_t k = modes; k < model.shape->stride; ++k) {
             EXPECT_EQ(state.displacement[k], 0);
             EXPECT_EQ(state.velocity[k], 0);
         }
@@ -84,8 +84,9 @@ TEST(Compile, ContactRowsAreTheModeShapes) {
     for (std::size_t k = 0; k < 30; ++k) {
         const double root = std::sqrt(2 / 0.863);
         const double wavenumber = static_cast<double>(k + 1) * std::numbers::pi / 0.863;
-        EXPECT_NEAR(model.contact_rows[k], root * std::sin(wavenumber * 0.2), 1e-13);
-        EXPECT_NEAR(model.contact_rows[model.stride + k], -root * std::sin(wavenumber * 0.5), 1e-13);
+        EXPECT_NEAR(model.shape->contact_rows[k], root * std::sin(wavenumber * 0.2), 1e-13);
+        EXPECT_NEAR(model.shape->contact_rows[model.shape->stride + k], -root * std::sin(wavenumber * 0.5),
+                    1e-13);
     }
 }
 
@@ -97,12 +98,12 @@ TEST(Compile, ExactStartsPassThroughTheTrueMotion) {
     StringState state = make_string_state(model);
     step(model, state);
     for (std::size_t k = 0; k < 60; ++k) {
-        const double scale = std::abs(model.initial_displacement[k]) * model.omega[k] + 1e-12;
-        EXPECT_NEAR(state.velocity[k], -model.initial_velocity[k], 1e-12 * scale);
+        const double scale = std::abs(model.shape->initial_displacement[k]) * model.tuning.omega[k] + 1e-12;
+        EXPECT_NEAR(state.velocity[k], -model.shape->initial_velocity[k], 1e-12 * scale);
     }
     // `backward` takes the true velocity literally.
     scene.strings[0].initial.start = Start::Backward;
-    for (const double v : test::compiled_string(scene).initial_velocity) EXPECT_EQ(v, 0);
+    for (const double v : test::compiled_string(scene).shape->initial_velocity) EXPECT_EQ(v, 0);
 }
 
 TEST(Compile, RefusesCoefficientsThatAreNotFinite) {

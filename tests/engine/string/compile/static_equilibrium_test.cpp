@@ -36,7 +36,7 @@ SceneDescription flexible_string(std::size_t modes, double rate_hz, ImpactLaw la
 
 double shape_at(const StringModel& model, const AlignedVector<double>& q, double x) {
     double u = 0;
-    for (std::size_t k = 0; k < model.mode_count; ++k) {
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
         u += std::sqrt(2 / length_m) *
              std::sin(static_cast<double>(k + 1) * std::numbers::pi * x / length_m) * q[k];
     }
@@ -57,12 +57,12 @@ TEST(StaticEquilibrium, OverOneFretTheStringIsStraightOnBothSides) {
     for (const double x : {0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.75}) {
         const double expected =
             x < x_fret ? height * x / x_fret : height * (length_m - x) / (length_m - x_fret);
-        EXPECT_NEAR(shape_at(model, model.initial_displacement, x), expected,
+        EXPECT_NEAR(shape_at(model, model.shape->initial_displacement, x), expected,
                     2 * force * truncation_per_newton(4000))
             << x;
     }
-    EXPECT_NEAR(shape_at(model, model.initial_displacement, x_fret), height, 1e-15);
-    EXPECT_EQ(model.initial_displacement, model.rest_displacement);
+    EXPECT_NEAR(shape_at(model, model.shape->initial_displacement, x_fret), height, 1e-15);
+    EXPECT_EQ(model.shape->initial_displacement, model.shape->rest_displacement);
     // Force balance: the fret carries the tension's two vertical components.
     StringState state = make_string_state(model);
     step(model, state);
@@ -100,7 +100,7 @@ TEST(StaticEquilibrium, OverManyFretsTheStringIsTheirConcaveHull) {
             const auto left = right - 1;
             const double chord = left->second + (right->second - left->second) * (x - left->first) /
                                                     (right->first - left->first);
-            EXPECT_NEAR(shape_at(model, model.initial_displacement, x), chord,
+            EXPECT_NEAR(shape_at(model, model.shape->initial_displacement, x), chord,
                         15 * truncation_per_newton(modes))
                 << "trial " << trial << ", x = " << x;
         }
@@ -123,8 +123,8 @@ TEST_P(Resting, StringHeldByFretsStaysAtRest) {
         for (int n = 0; n < 4000; ++n) step(model, state);
         EXPECT_GT(state.counters.impulses, 4000U);
         EXPECT_EQ(state.counters.truncated_solves, 0U);
-        for (std::size_t k = 0; k < model.mode_count; ++k) {
-            const double drift = state.displacement[k] - model.initial_displacement[k];
+        for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
+            const double drift = state.displacement[k] - model.shape->initial_displacement[k];
             EXPECT_LE(std::abs(drift), 1e-13) << rate << " Hz, mode " << k + 1;
             EXPECT_LE(std::abs(state.velocity[k]), 1e-9) << rate << " Hz, mode " << k + 1;
         }
@@ -138,8 +138,8 @@ TEST(StaticEquilibrium, FreeStringsAreNotTouched) {
     scene.strings[0].contacts = {
         {0.3, -1e-3, 0, Side::Below}, {0.4, 1e-3, 0, Side::Above}, {0.5, 0, 0, Side::Below}};
     const StringModel model = test::compiled_string(scene);
-    for (const double q : model.initial_displacement) EXPECT_EQ(q, 0);
-    for (const double q : model.rest_displacement) EXPECT_EQ(q, 0);
+    for (const double q : model.shape->initial_displacement) EXPECT_EQ(q, 0);
+    for (const double q : model.shape->rest_displacement) EXPECT_EQ(q, 0);
 }
 
 class HeldPluck : public testing::TestWithParam<ImpactLaw> {};
@@ -153,8 +153,8 @@ TEST_P(HeldPluck, IsLiftedClearOfObstaclesAndGainsNothing) {
             scene.strings[0].initial.shape = Pluck{0.5, pluck};
             scene.strings[0].contacts = {{0.25, fret, 0, Side::Below}, {0.7, fret, 0, Side::Below}};
             const StringModel model = test::compiled_string(scene);
-            EXPECT_NEAR(shape_at(model, model.initial_displacement, 0.25), fret, 1e-15);
-            EXPECT_GE(shape_at(model, model.initial_displacement, 0.7), fret - 1e-15);
+            EXPECT_NEAR(shape_at(model, model.shape->initial_displacement, 0.25), fret, 1e-15);
+            EXPECT_GE(shape_at(model, model.shape->initial_displacement, 0.7), fret - 1e-15);
             StringState state = make_string_state(model, Metering::Step);
             for (int n = 0; n < 2000; ++n) step(model, state);
             EXPECT_LE(state.energy.worst_rise, 1e-13 * state.energy.initial)

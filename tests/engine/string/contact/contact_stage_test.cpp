@@ -27,20 +27,22 @@ SceneDescription damped_bass(ImpactLaw law, double rate_hz, std::size_t modes = 
 /// How far 1 N at x moves the string at x, by its modes' stiffness mu omega^2.
 double static_compliance(const StringModel& model, double x) {
     long double sum = 0;
-    for (std::size_t k = 0; k < model.mode_count; ++k) {
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
         const long double shape =
-            std::sqrt(2.0L / model.length_m) *
-            std::sin(static_cast<long double>(k + 1) * 3.14159265358979323846L * x / model.length_m);
+            std::sqrt(2.0L / model.shape->length_m) *
+            std::sin(static_cast<long double>(k + 1) * 3.14159265358979323846L * x / model.shape->length_m);
         sum += shape * shape /
-               (model.linear_density_kg_per_m * static_cast<long double>(model.omega[k]) * model.omega[k]);
+               (model.shape->linear_density_kg_per_m * static_cast<long double>(model.tuning.omega[k]) *
+                model.tuning.omega[k]);
     }
     return static_cast<double>(sum);
 }
 
 double gap_of(const StringModel& model, const StringState& state, std::size_t c) {
     long double gap = -static_cast<long double>(state.contact.height[c]);
-    for (std::size_t k = 0; k < model.mode_count; ++k) {
-        gap += static_cast<long double>(model.contact_rows[c * model.stride + k]) * state.displacement[k];
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
+        gap += static_cast<long double>(model.shape->contact_rows[c * model.shape->stride + k]) *
+               state.displacement[k];
     }
     return static_cast<double>(gap);
 }
@@ -89,13 +91,13 @@ TEST(Contact, GapsFollowTheStringOverThousandsOfSteps) {
         StringState state = make_string_state(model);
         double largest = 0;
         for (int n = 0; n < 5000; ++n) step(model, state);
-        for (std::size_t c = 0; c < model.contact_count; ++c) {
+        for (std::size_t c = 0; c < model.shape->contact_count; ++c) {
             largest = std::max(largest, std::abs(gap_of(model, state, c)));
             EXPECT_NEAR(state.contact.gap[c], gap_of(model, state, c), 1e-13);
         }
         EXPECT_GT(largest, 1e-5);
         place_gaps(model, state);
-        for (std::size_t c = 0; c < model.contact_count; ++c) {
+        for (std::size_t c = 0; c < model.shape->contact_count; ++c) {
             EXPECT_NEAR(state.contact.gap[c], gap_of(model, state, c), 1e-17);
         }
     }
@@ -159,7 +161,7 @@ TEST_P(MovingObstacle, LiftsTheStringWithTheWorkOfStatics) {
     const Lift lifted = lift(Scheme::Exact, ImpactLaw::Signorini, 0.6, GetParam());
     const double sign = GetParam() == Side::Below ? 1 : -1;
     EXPECT_EQ(lifted.state.contact.height[0], 2e-3);
-    EXPECT_NEAR(sign * lifted.model.contact_height[0], -1e-3 * sign, 1e-18);
+    EXPECT_NEAR(sign * lifted.model.shape->contact_height[0], -1e-3 * sign, 1e-18);
     const double work = 2e-3 * 2e-3 / (2 * static_compliance(lifted.model, 0.31));
     EXPECT_NEAR(energy(lifted.model, lifted.state), work, 1e-9 * work);
     EXPECT_NEAR(lifted.state.energy.player_work, work, 0.1 * work);

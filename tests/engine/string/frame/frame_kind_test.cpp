@@ -53,7 +53,7 @@ std::vector<std::optional<FrameKind>> always(FrameKind kind) {
 TEST(FrameKind, TheTestedStringIsShortOrNot) {
     EXPECT_TRUE(solves_short_frames(short_model(), make_string_state(short_model())));
     EXPECT_FALSE(solves_short_frames(long_model(), make_string_state(long_model())));
-    EXPECT_FALSE(long_model().response.empty());
+    EXPECT_FALSE(long_model().tuning.response.empty());
 }
 
 TEST(FrameKind, ASleepingStringSleepsOnUntilItIsMoved) {
@@ -95,7 +95,7 @@ TEST(FrameKind, LongFramesFollowTheBroadPhase) {
     stepped.skipping.near = false;
     EXPECT_EQ(choose_frame_kind(long_model(), stepped, Answer::MayClose), FrameKind::NearStepped);
     StringModel without_table = long_model();
-    without_table.response = {};
+    without_table.tuning.response = {};
     EXPECT_EQ(choose_frame_kind(without_table, state, Answer::MayClose), FrameKind::NearStepped);
 }
 
@@ -130,7 +130,7 @@ TEST(FrameKind, FailedTestsBackOff) {
     StringState state = make_string_state(model);
     std::vector<std::uint32_t> granted;
     for (int n = 0; n < 400 && granted.size() < 5; ++n) {
-        test::press(model, state, model.contact_position[3], -0.4);
+        test::press(model, state, model.shape->contact_position[3], -0.4);
         state.certificate.struck = false;  // so that only the back-off decides
         const std::uint32_t left = state.certificate.backoff.left;
         advance_frame(model, state);

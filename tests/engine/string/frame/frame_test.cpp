@@ -118,9 +118,9 @@ std::vector<double> played(const StringModel& model, const Skipping& skipping, s
         };
         const double now = force_at(static_cast<double>(n));
         const double next = force_at(static_cast<double>(n + 1));
-        const double rate = (next - now) / static_cast<double>(model.steps_per_frame);
+        const double rate = (next - now) / static_cast<double>(model.shape->steps_per_frame);
         clear_excitation(state);
-        if (now != 0 || next != 0) test::press(model, state, 0.7 * model.length_m, now, rate);
+        if (now != 0 || next != 0) test::press(model, state, 0.7 * model.shape->length_m, now, rate);
         samples.push_back(probe_value(model, state, 0, 1.0 / 48000));
         advance_frame(model, state);
     }
@@ -169,10 +169,10 @@ std::vector<double> pushed_about(const StringModel& model, const Skipping& skipp
             for (int point = 0; point < 2; ++point) {
                 const double force_N = strength_N * random.uniform(-1, 1);
                 const double rate_N =
-                    strength_N * random.uniform(-1, 1) / static_cast<double>(model.steps_per_frame);
+                    strength_N * random.uniform(-1, 1) / static_cast<double>(model.shape->steps_per_frame);
                 const AlignedVector<double> row =
-                    test::shape_row(model, random.uniform(0.1, 0.9) * model.length_m);
-                add_force(state, row.data(), model.stride, force_N, rate_N);
+                    test::shape_row(model, random.uniform(0.1, 0.9) * model.shape->length_m);
+                add_force(state, row.data(), model.shape->stride, force_N, rate_N);
             }
         }
         samples.push_back(probe_value(model, state, 0, 1.0 / 48000));
@@ -206,7 +206,7 @@ TEST(Skipping, StringsFallAsleepAndWake) {
     const StringModel model = test::compiled_string(scene);
     StringState state = make_string_state(model);
     for (int round = 0; round < 2; ++round) {
-        test::press(model, state, 0.2 * model.length_m, 1);
+        test::press(model, state, 0.2 * model.shape->length_m, 1);
         advance_frame(model, state);
         clear_excitation(state);
         EXPECT_FALSE(state.asleep);

@@ -90,7 +90,7 @@ double worst_error_after_ten_seconds(double rate_hz, Advance advance) {
     const Result<SceneModel> compiled = compile(scene);
     EXPECT_TRUE(compiled.ok()) << (compiled.ok() ? "" : compiled.failure().line());
     const StringModel& model = compiled.value().strings[0];
-    EXPECT_EQ(model.mode_count, start.displacement.size());
+    EXPECT_EQ(model.shape->mode_count, start.displacement.size());
     StringState state = make_string_state(model);
 
     // The highest modes end far below 1e-308, and stepping them through denormals takes some processors half
@@ -107,11 +107,11 @@ double worst_error_after_ten_seconds(double rate_hz, Advance advance) {
 
     // h is the double nearest to 1/rate: over 2e7 steps its last half bit would show, so time is counted in
     // steps of h.
-    const Real t = Real(model.step_s) * steps;
+    const Real t = Real(model.shape->step_s) * steps;
     double worst = 0;
-    for (std::size_t k = 0; k < model.mode_count; ++k) {
-        const Oscillation truth =
-            analytic(model.omega[k], model.sigma[k], t, start.displacement[k], start.velocity[k]);
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
+        const Oscillation truth = analytic(model.tuning.omega[k], model.shape->sigma[k], t,
+                                           start.displacement[k], start.velocity[k]);
         const double error =
             static_cast<double>(abs(Real(state.displacement[k]) - truth.displacement) / truth.amplitude);
         EXPECT_LE(error, 1e-12) << "mode " << k * mode_stride + 1 << " at " << rate_hz << " Hz";

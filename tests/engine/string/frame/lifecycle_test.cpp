@@ -68,20 +68,22 @@ TEST(State, StartsAtTheModelsInitialStateWithNothingCounted) {
     EXPECT_EQ(state.frame, 0U);
     for (std::size_t s = 0; s < 2; ++s) {
         const StringState& string = state.strings[s];
-        EXPECT_EQ(string.displacement, model.strings[s].initial_displacement);
-        EXPECT_EQ(string.velocity, model.strings[s].initial_velocity);
+        EXPECT_EQ(string.displacement, model.strings[s].shape->initial_displacement);
+        EXPECT_EQ(string.velocity, model.strings[s].shape->initial_velocity);
         EXPECT_EQ(string.energy.initial, energy(model.strings[s], string));
         EXPECT_EQ(string.energy.highest, string.energy.initial);
         EXPECT_EQ(string.energy.dissipated, 0);
         EXPECT_EQ(string.counters.steps, 0U);
-        for (std::size_t c = 0; c < model.strings[s].contact_count; ++c) {
-            long double gap = -model.strings[s].contact_height[c];
+        for (std::size_t c = 0; c < model.strings[s].shape->contact_count; ++c) {
+            long double gap = -model.strings[s].shape->contact_height[c];
             long double before = gap;
-            for (std::size_t k = 0; k < model.strings[s].stride; ++k) {
-                const long double phi = model.strings[s].contact_rows[c * model.strings[s].stride + k];
+            for (std::size_t k = 0; k < model.strings[s].shape->stride; ++k) {
+                const long double phi =
+                    model.strings[s].shape->contact_rows[c * model.strings[s].shape->stride + k];
                 gap += phi * string.displacement[k];
-                before += phi * (string.displacement[k] -
-                                 static_cast<long double>(model.strings[s].step_s) * string.velocity[k]);
+                before +=
+                    phi * (string.displacement[k] -
+                           static_cast<long double>(model.strings[s].shape->step_s) * string.velocity[k]);
             }
             EXPECT_NEAR(string.contact.gap[c], static_cast<double>(gap), 1e-16);
             EXPECT_NEAR(string.contact.gap_before[c], static_cast<double>(before), 1e-16);
@@ -104,7 +106,7 @@ TEST(State, PutToRestRestsAgainstTheObstaclesAndStays) {
     put_to_rest(model.strings[0], string);
     EXPECT_FALSE(string.excitation.active);
     EXPECT_EQ(string.counters.steps, steps);  // counters stay
-    EXPECT_EQ(string.displacement, model.strings[0].rest_displacement);
+    EXPECT_EQ(string.displacement, model.strings[0].shape->rest_displacement);
     const auto samples = rendered(model, state, 500);
     for (std::size_t n = 0; n < 500; ++n) {
         ASSERT_NEAR(samples[n], 1e-3, 1e-13) << n;
@@ -125,14 +127,14 @@ TEST_P(StateOfLaw, AStringThatLeavesItsObstaclesFliesFreely) {
         scene.strings[0].contacts = {};
         const StringModel bare = test::compiled_string(scene);
         StringState free = make_string_state(bare, Metering::Off, skip_nothing);
-        std::copy_n(state.displacement.begin(), model.stride, free.displacement.begin());
-        std::copy_n(state.velocity.begin(), model.stride, free.velocity.begin());
+        std::copy_n(state.displacement.begin(), model.shape->stride, free.displacement.begin());
+        std::copy_n(state.velocity.begin(), model.shape->stride, free.velocity.begin());
         notice_change(bare, free);
         double largest = 0;
         for (int n = 0; n < 300; ++n) {
             advance_frame(model, state);
             advance_frame(bare, free);
-            for (std::size_t k = 0; k < model.mode_count; ++k) {
+            for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
                 largest = std::max(largest, std::abs(free.displacement[k]));
                 ASSERT_NEAR(state.displacement[k], free.displacement[k], 1e-11 * largest) << n << " " << k;
             }

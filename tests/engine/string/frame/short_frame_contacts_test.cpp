@@ -29,8 +29,8 @@ StringModel short_string(std::uint64_t seed, std::size_t contacts, double steps)
 
 /// All gaps within 1 um, half of them closed.
 void set_gaps(const StringModel& model, StringState& state, test::RandomScene& random) {
-    for (std::size_t c = 0; c < model.contact_stride; ++c) {
-        const bool real = c < model.contact_count;
+    for (std::size_t c = 0; c < model.shape->contact_stride; ++c) {
+        const bool real = c < model.shape->contact_count;
         state.contact.gap[c] = real ? std::max(0.0, random.uniform(-1e-6, 1e-6)) : 1.0;
         state.contact.gap_before[c] = real ? std::max(0.0, random.uniform(-1e-6, 1e-6)) : 1.0;
     }
@@ -39,9 +39,10 @@ void set_gaps(const StringModel& model, StringState& state, test::RandomScene& r
 /// Rates that close some gaps: the contacts move together, each a little by itself.
 void set_rates(const StringModel& model, StringState& state, test::RandomScene& random) {
     const double together = random.uniform(-1, 1);
-    for (std::size_t n = 0; n < model.steps_per_frame; ++n) {
-        for (std::size_t c = 0; c < model.contact_count; ++c) {
-            state.short_frame.rates[n * model.contact_stride + c] = together + random.uniform(-0.3, 0.3);
+    for (std::size_t n = 0; n < model.shape->steps_per_frame; ++n) {
+        for (std::size_t c = 0; c < model.shape->contact_count; ++c) {
+            state.short_frame.rates[n * model.shape->contact_stride + c] =
+                together + random.uniform(-0.3, 0.3);
         }
     }
 }
@@ -50,16 +51,16 @@ void set_rates(const StringModel& model, StringState& state, test::RandomScene& 
 class ModalResponses {
   public:
     explicit ModalResponses(const StringModel& model) : model_(model) {
-        const std::size_t m = model.steps_per_frame;
-        table_.assign(m * model.contact_count * model.contact_count, 0);
-        for (std::size_t k = 0; k < model.mode_count; ++k) {
-            const long double h = model.step_s;
-            const long double e = static_cast<long double>(model.carry[k]) + model.change[k];
-            long double v = model.mobility[k];
+        const std::size_t m = model.shape->steps_per_frame;
+        table_.assign(m * model.shape->contact_count * model.shape->contact_count, 0);
+        for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
+            const long double h = model.shape->step_s;
+            const long double e = static_cast<long double>(model.shape->carry[k]) + model.shape->change[k];
+            long double v = model.shape->mobility[k];
             long double q = h * v;
             for (std::size_t n = 0; n < m; ++n) {
                 add_mode(k, n, q);
-                v = e * v + model.restoring[k] * q;
+                v = e * v + model.tuning.restoring[k] * q;
                 q += h * v;
             }
         }
@@ -67,16 +68,17 @@ class ModalResponses {
 
     /// `later` steps after 1 N s at `struck`.
     [[nodiscard]] long double gap(std::size_t later, std::size_t struck, std::size_t c) const {
-        return table_[(later * model_.contact_count + struck) * model_.contact_count + c];
+        return table_[(later * model_.shape->contact_count + struck) * model_.shape->contact_count + c];
     }
 
   private:
     void add_mode(std::size_t k, std::size_t n, long double q) {
-        const std::size_t count = model_.contact_count;
+        const std::size_t count = model_.shape->contact_count;
         for (std::size_t a = 0; a < count; ++a) {
             for (std::size_t b = 0; b < count; ++b) {
-                table_[(n * count + a) * count + b] += q * model_.contact_rows[a * model_.stride + k] *
-                                                       model_.contact_rows[b * model_.stride + k];
+                table_[(n * count + a) * count + b] +=
+                    q * model_.shape->contact_rows[a * model_.shape->stride + k] *
+                    model_.shape->contact_rows[b * model_.shape->stride + k];
             }
         }
     }
@@ -93,17 +95,17 @@ struct Gaps {
 /// Checks the steps just solved. Returns the number of impulses.
 std::size_t expect_solved(const StringModel& model, const StringState& state, const Gaps& given,
                           const ModalResponses& responses) {
-    const std::size_t stride = model.contact_stride;
+    const std::size_t stride = model.shape->contact_stride;
     const AlignedVector<double>& impulses = state.short_frame.impulses;
     std::size_t count = 0;
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
+    for (std::size_t c = 0; c < model.shape->contact_count; ++c) {
         long double free = given.start[c];
         long double sum = 0;
-        for (std::size_t n = 0; n < model.steps_per_frame; ++n) {
-            free += static_cast<long double>(model.step_s) * given.rates[n * stride + c];
+        for (std::size_t n = 0; n < model.shape->steps_per_frame; ++n) {
+            free += static_cast<long double>(model.shape->step_s) * given.rates[n * stride + c];
             long double gap = free;
             for (std::size_t before = 0; before <= n; ++before) {
-                for (std::size_t other = 0; other < model.contact_count; ++other)
+                for (std::size_t other = 0; other < model.shape->contact_count; ++other)
                     gap += responses.gap(n - before, other, c) * impulses[before * stride + other];
             }
             const double impulse = impulses[n * stride + c];
@@ -112,7 +114,7 @@ std::size_t expect_solved(const StringModel& model, const StringState& state, co
             if (impulse > 0) {
                 EXPECT_LE(std::abs(gap), 1e-17L);
             }
-            if (n + 1 == model.steps_per_frame) {
+            if (n + 1 == model.shape->steps_per_frame) {
                 EXPECT_NEAR(state.contact.gap[c], static_cast<double>(gap), 1e-17);
             }
             sum += impulse;
@@ -170,7 +172,7 @@ TEST(ContactKernels, AGapThatIsNotFiniteIsReported) {
     test::RandomScene random(3);
     set_gaps(model, state, random);
     set_rates(model, state, random);
-    state.short_frame.rates[model.contact_stride + 7] = std::nan("");
+    state.short_frame.rates[model.shape->contact_stride + 7] = std::nan("");
     EXPECT_FALSE(kernels::solve_steps(model, state));
 }
 

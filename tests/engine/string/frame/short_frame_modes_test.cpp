@@ -30,23 +30,23 @@ struct Motion {
 /// (steps x contact_stride, or none).
 Motion stepped(const StringModel& model, const StringState& state, const double* impulses) {
     Motion motion;
-    const std::size_t count = model.contact_count;
-    motion.rates.assign(model.steps_per_frame * count, 0);
+    const std::size_t count = model.shape->contact_count;
+    motion.rates.assign(model.shape->steps_per_frame * count, 0);
     const ExcitationState& excitation = state.excitation;
-    for (std::size_t k = 0; k < model.mode_count; ++k) {
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
         long double q = state.displacement[k];
         long double v = state.velocity[k];
-        for (std::size_t n = 0; n < model.steps_per_frame; ++n) {
+        for (std::size_t n = 0; n < model.shape->steps_per_frame; ++n) {
             const auto elapsed = static_cast<long double>(excitation.elapsed + n);
-            long double drive = model.step_s * (excitation.held[k] + elapsed * excitation.ramp[k]);
+            long double drive = model.shape->step_s * (excitation.held[k] + elapsed * excitation.ramp[k]);
             for (std::size_t c = 0; impulses != nullptr && c < count; ++c)
-                drive += static_cast<long double>(impulses[n * model.contact_stride + c]) *
-                         model.contact_rows[c * model.stride + k];
-            const long double e = static_cast<long double>(model.carry[k]) + model.change[k];
-            v = e * v + model.restoring[k] * q + model.mobility[k] * drive;
-            q += model.step_s * v;
+                drive += static_cast<long double>(impulses[n * model.shape->contact_stride + c]) *
+                         model.shape->contact_rows[c * model.shape->stride + k];
+            const long double e = static_cast<long double>(model.shape->carry[k]) + model.shape->change[k];
+            v = e * v + model.tuning.restoring[k] * q + model.shape->mobility[k] * drive;
+            q += model.shape->step_s * v;
             for (std::size_t c = 0; c < count; ++c)
-                motion.rates[n * count + c] += v * model.contact_rows[c * model.stride + k];
+                motion.rates[n * count + c] += v * model.shape->contact_rows[c * model.shape->stride + k];
         }
         motion.q.push_back(q);
         motion.v.push_back(v);
@@ -55,13 +55,13 @@ Motion stepped(const StringModel& model, const StringState& state, const double*
 }
 
 void expect_end(const StringModel& model, const StringState& state, const Motion& exact) {
-    for (std::size_t k = 0; k < model.mode_count; ++k) {
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
         const auto q = static_cast<double>(exact.q[k]);
         const auto v = static_cast<double>(exact.v[k]);
         ASSERT_NEAR(state.displacement_flown[k], q, 1e-14 * (std::abs(q) + 1e-3)) << k;
         ASSERT_NEAR(state.velocity_flown[k], v, 1e-14 * (std::abs(v) + 100)) << k;
     }
-    for (std::size_t k = model.mode_count; k < model.stride; ++k) {
+    for (std::size_t k = model.shape->mode_count; k < model.shape->stride; ++k) {
         ASSERT_EQ(state.displacement_flown[k], 0);
         ASSERT_EQ(state.velocity_flown[k], 0);
     }
@@ -77,7 +77,7 @@ TEST(ShortMotion, RatesAndEndAreThoseOfSteppingWithAndWithoutForces) {
         test::RandomScene random(modes);
         for (const bool forced : {false, true}) {
             StringState state = make_string_state(model);
-            if (forced) test::press(model, state, 0.3 * model.length_m, 5, -0.2);
+            if (forced) test::press(model, state, 0.3 * model.shape->length_m, 5, -0.2);
             state.excitation.elapsed = forced ? 3 : 0;
             for (std::size_t k = 0; k < modes; ++k) {
                 state.displacement[k] = 1e-3 * random.uniform(-1, 1);
@@ -89,12 +89,12 @@ TEST(ShortMotion, RatesAndEndAreThoseOfSteppingWithAndWithoutForces) {
             for (std::size_t n = 0; n < steps; ++n) {
                 for (std::size_t c = 0; c < contacts; ++c) {
                     const auto rate = static_cast<double>(exact.rates[n * contacts + c]);
-                    ASSERT_NEAR(state.short_frame.rates[n * model.contact_stride + c], rate,
+                    ASSERT_NEAR(state.short_frame.rates[n * model.shape->contact_stride + c], rate,
                                 1e-14 * (std::abs(rate) + 300))
                         << modes << " modes, contact " << c << ", step " << n;
                 }
-                for (std::size_t c = contacts; c < model.contact_stride; ++c)
-                    ASSERT_EQ(state.short_frame.rates[n * model.contact_stride + c], 0);
+                for (std::size_t c = contacts; c < model.shape->contact_stride; ++c)
+                    ASSERT_EQ(state.short_frame.rates[n * model.shape->contact_stride + c], 0);
             }
         }
     }
@@ -109,7 +109,7 @@ TEST(ShortMotion, TheResponseIsThatOfSteppingUnderTheImpulses) {
         for (std::size_t c = 0; c < contacts; c += 2) frame.struck.push(c);
         for (std::size_t n = 0; n < steps; ++n) {
             for (std::size_t c = 0; c < contacts; c += 2)
-                frame.impulses[n * model.contact_stride + c] = 1e-4 * random.uniform(0, 1);
+                frame.impulses[n * model.shape->contact_stride + c] = 1e-4 * random.uniform(0, 1);
         }
         const Motion exact = stepped(model, state, frame.impulses.data());
         ASSERT_TRUE(kernels::run_freely(model, state));

@@ -53,12 +53,12 @@ std::vector<double> driven(const StringModel& model, const Skipping& skipping, s
     test::RandomScene random(seed);
     StringState state = make_string_state(model, Metering::Off, skipping);
     std::vector<double> samples;
-    const double x = random.uniform(0.1, 0.9) * model.length_m;
+    const double x = random.uniform(0.1, 0.9) * model.shape->length_m;
     double force = 0;
     for (int n = 0; n < 500; ++n) {
         clear_excitation(state);
         const double next = n % 120 < 70 ? random.uniform(-3, 1) : 0;
-        const double rate = (next - force) / static_cast<double>(model.steps_per_frame);
+        const double rate = (next - force) / static_cast<double>(model.shape->steps_per_frame);
         if (force != 0 || next != 0) test::press(model, state, x, force, rate);
         force = next;
         samples.push_back(probe_value(model, state, 0, 1.0 / 48000));
@@ -92,8 +92,8 @@ std::vector<double> struck_unlooked(const StringModel& model, const Skipping& sk
     for (int n = 0; n < 40; ++n) {
         clear_excitation(state);
         const double strength = n == 1 ? 60 : 1e-6;
-        add_force(state, touching.data(), model.stride, strength);
-        add_force(state, near.data(), model.stride, -strength);
+        add_force(state, touching.data(), model.shape->stride, strength);
+        add_force(state, near.data(), model.shape->stride, -strength);
         samples.push_back(probe_value(model, state, 0, 1.0 / 48000));
         advance_frame(model, state);
     }
@@ -136,10 +136,10 @@ TEST(ShortFrames, GapsStayThoseOfTheModes) {
     for (int n = 0; n < 1000; ++n) {
         advance_frame(model, state);
         ASSERT_EQ(state.short_frame.gaps_at, state.frame) << n;
-        for (std::size_t c = 0; c < model.contact_count; ++c) {
-            long double gap = -model.contact_height[c];
-            for (std::size_t k = 0; k < model.mode_count; ++k)
-                gap += static_cast<long double>(model.contact_rows[c * model.stride + k]) *
+        for (std::size_t c = 0; c < model.shape->contact_count; ++c) {
+            long double gap = -model.shape->contact_height[c];
+            for (std::size_t k = 0; k < model.shape->mode_count; ++k)
+                gap += static_cast<long double>(model.shape->contact_rows[c * model.shape->stride + k]) *
                        state.displacement[k];
             ASSERT_NEAR(state.contact.gap[c], static_cast<double>(gap), 1e-16)
                 << "frame " << n << " contact " << c;

@@ -192,9 +192,9 @@ SceneDescription flexible_string(std::size_t modes, double rate_hz) {
 
 double displacement_at(const StringModel& model, const StringState& state, double x) {
     double u = 0;
-    for (std::size_t k = 0; k < model.mode_count; ++k) {
-        u += std::sqrt(2 / model.length_m) * std::sin(static_cast<double>(k + 1) * pi * x / model.length_m) *
-             state.displacement[k];
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
+        u += std::sqrt(2 / model.shape->length_m) *
+             std::sin(static_cast<double>(k + 1) * pi * x / model.shape->length_m) * state.displacement[k];
     }
     return u;
 }
@@ -280,10 +280,10 @@ TEST(Step, ContactsFromAboveMirrorContactsFromBelow) {
         for (int n = 0; n < 2000; ++n) {
             step(model_below, state_below);
             step(model_above, state_above);
-            for (std::size_t k = 0; k < model_below.mode_count; ++k) {
+            for (std::size_t k = 0; k < model_below.shape->mode_count; ++k) {
                 ASSERT_EQ(state_below.displacement[k], -state_above.displacement[k]) << n;
             }
-            for (std::size_t c = 0; c < model_below.contact_count; ++c) {
+            for (std::size_t c = 0; c < model_below.shape->contact_count; ++c) {
                 ASSERT_EQ(state_below.contact.impulse[c], state_above.contact.impulse[c]);
             }
         }
@@ -294,10 +294,11 @@ TEST(Step, ContactsFromAboveMirrorContactsFromBelow) {
 /// How far the deepest contact lies inside its obstacle [m], from the modes themselves.
 double true_depth(const StringModel& model, const StringState& state) {
     long double deepest = 0;
-    for (std::size_t c = 0; c < model.contact_count; ++c) {
+    for (std::size_t c = 0; c < model.shape->contact_count; ++c) {
         long double gap = -static_cast<long double>(state.contact.height[c]);
-        for (std::size_t k = 0; k < model.mode_count; ++k) {
-            gap += static_cast<long double>(model.contact_rows[c * model.stride + k]) * state.displacement[k];
+        for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
+            gap += static_cast<long double>(model.shape->contact_rows[c * model.shape->stride + k]) *
+                   state.displacement[k];
         }
         deepest = std::max(deepest, -gap);
     }
@@ -317,7 +318,7 @@ TEST(Step, MixesWithFramesInAnyOrder) {
         scene.strings.push_back(test::bass_string(300));
         const StringModel model = test::compiled_string(scene);
         StringState state = make_string_state(model);
-        std::size_t fewest = model.contact_count;
+        std::size_t fewest = model.shape->contact_count;
         std::uint64_t struck = 0;
         for (int turn = 0; turn < 12; ++turn) {
             for (int n = 0; n < 47; ++n) advance_frame(model, state);
@@ -325,7 +326,7 @@ TEST(Step, MixesWithFramesInAnyOrder) {
             fewest = std::min(fewest, state.contact.near.size());
             const std::uint64_t before = state.counters.impulses;
             for (int n = 0; n < 60; ++n) {
-                for (std::size_t i = 0; i < model.steps_per_frame; ++i) step(model, state);
+                for (std::size_t i = 0; i < model.shape->steps_per_frame; ++i) step(model, state);
                 ASSERT_LE(true_depth(model, state), allowed_m) << "steps of turn " << turn << ", frame " << n;
             }
             struck += state.counters.impulses - before;

@@ -15,9 +15,9 @@ namespace {
 /// H from the definition, in long double, from the two displacements around the step.
 long double energy_by_definition(const StringModel& model, const StringState& state) {
     long double sum = 0;
-    const long double h = model.step_s;
-    for (std::size_t k = 0; k < model.mode_count; ++k) {
-        const long double omega = model.omega[k], sigma = model.sigma[k];
+    const long double h = model.shape->step_s;
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
+        const long double omega = model.tuning.omega[k], sigma = model.shape->sigma[k];
         const long double q = state.displacement[k], v = state.velocity[k];
         const long double e = std::exp(-2 * sigma * h);
         const std::complex<long double> W =
@@ -26,7 +26,7 @@ long double energy_by_definition(const StringModel& model, const StringState& st
         const long double w = (1 + e - A) / (omega * omega * h * h);
         sum += (1 + e) / (2 * w) * v * v + omega * omega * q * (q - h * v);
     }
-    return static_cast<long double>(model.linear_density_kg_per_m) * sum / 2;
+    return static_cast<long double>(model.shape->linear_density_kg_per_m) * sum / 2;
 }
 
 TEST(Energy, MatchesItsDefinition) {
@@ -139,7 +139,7 @@ TEST_P(TruncatedLaw, TruncatedSolvesStayPassiveAndAreCounted) {
             const SceneDescription scene = random.scene(GetParam(), 8000, 4e6);
             const StringModel model = test::compiled_string(scene);
             StringState state = make_string_state(model, Metering::Step);
-            state.lcp = make_lcp_workspace(model.contact_count, capacity);
+            state.lcp = make_lcp_workspace(model.shape->contact_count, capacity);
             for (int n = 0; n < 1500; ++n) step(model, state);
             EXPECT_LE(state.energy.worst_rise, 1e-13 * state.energy.initial) << "seed " << seed;
             EXPECT_LE(state.energy.worst_imbalance, 1e-13 * state.energy.initial) << "seed " << seed;

@@ -73,7 +73,7 @@ TEST(RowRenderer, DroppedContactsAreNotANumber) {
     const SceneModel model =
         model_of(test::replaced(test::valid_scene, "\"position_m\": 0.5, \"height_m\": 0.004",
                                 "\"position_m\": 0, \"height_m\": 0.004"));
-    ASSERT_EQ(model.strings[0].contact_count, 1U);
+    ASSERT_EQ(model.strings[0].shape->contact_count, 1U);
     RowRenderer renderer(model, 0, Metering::Off, skip_all, true);
     const RowBlock& block = renderer.next();
     EXPECT_EQ(block.count, 1U);
