@@ -14,7 +14,7 @@ struct Modes {
     std::vector<double> sigma;  ///< decay rate [1/s], >= 0
 };
 
-/// Modes from physics (DESIGN of the laws: see InharmonicityLaw, ValetteLoss, DecayTimePoints) or from
+/// Modes from physics (InharmonicityLaw, ValetteLoss, DecayTimePoints) or from
 /// tables. Precondition: the description has been validated (compile() does so).
 Modes modes_of(const StringDescription& string);
 

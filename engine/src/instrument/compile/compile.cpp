@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -145,7 +146,7 @@ Result<StoppedStringModel> compile_stopped(const InstrumentDescription& instrume
     if (!std::isfinite(stopped.frequency_hz)) return stopped;
     const FretsDescription& frets = frets_of(instrument, instrument.strings[index]);
     stopped.key = instrument.strings[index].open_note + semitones_of(frets, fret);
-    std::string place = indexed_place("strings", index);
+    std::string place = detail::indexed_place("strings", index);
     const StringDescription description = stopped_string(instrument, index, fret);
     const auto& modes = std::get<PhysicalModes>(description.modes);
     if (modes.count > limits::instrument_modes) {
@@ -217,7 +218,8 @@ std::vector<double> fade_shape(double output_rate_hz) {
     const std::uint64_t frames = frames_of(fade_s, output_rate_hz);
     std::vector<double> shape;
     for (std::uint64_t i = 1; i <= frames; ++i)
-        shape.push_back(0.5 + 0.5 * std::cos(std::acos(-1.0) * double(i) / double(frames)));
+        shape.push_back(
+            0.5 + 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(frames)));
     return shape;
 }
 

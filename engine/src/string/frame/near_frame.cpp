@@ -5,6 +5,7 @@
 
 #include "string/broad_phase/gap_bounds.h"
 #include "string/broad_phase/gap_certificate.h"
+#include "string/broad_phase/pushed_contacts.h"
 #include "string/contact/contact_stage.h"
 #include "string/kernels/mode_bounds.h"
 #include "string/kernels/mode_run.h"
@@ -180,31 +181,6 @@ void solve_in_contact_space(const StringModel& model, StringState& state) {
     }
 }
 
-/// Contacts that the frame's impulses may have pushed in become near; true if there are any.
-bool admit_pushed(const StringModel& model, StringState& state) {
-    ContactState& contact = state.contact;
-    CertificateState& bounds = state.certificate;
-    const NearState& near = state.near_frame;
-    const std::vector<std::size_t>& begin = model.shape->certificate.group_begin;
-    const std::size_t before = contact.near_count;
-    for (std::size_t g = 0; g + 1 < begin.size(); ++g) {
-        double push = 0;
-        for (std::size_t i = 0; i < near.struck_count; ++i) {
-            const auto struck = near.struck[i];
-            push += model.tuning.certificate.push_path[g * model.shape->contact_count + struck] *
-                    contact.frame_impulse[struck];
-        }
-        bounds.group_push[g] = push;
-        if (bounds.group_margin[g] > push) continue;
-        for (std::size_t c = begin[g]; c < begin[g + 1]; ++c) {
-            if (contact.is_near[c] != 0 || bounds.margin[c] > push) continue;
-            contact.near[contact.near_count++] = static_cast<std::uint32_t>(c);
-            contact.is_near[c] = 1;
-        }
-    }
-    return contact.near_count > before;
-}
-
 /// The frame's end receives the response of the modes to the impulses, run for unit mobility and scaled at
 /// the end.
 void run_impulses(const StringModel& model, StringState& state) {
@@ -241,7 +217,7 @@ bool solve_near_frame(const StringModel& model, StringState& state) JAWARI_REALT
         known = contact.near_count;
         save_start(state);
         solve_in_contact_space(model, state);
-        if (!admit_pushed(model, state)) break;
+        if (!admit_pushed_in_frame(model, state)) break;
         restore_start(state);
         place_gaps(model, state);
     } while (true);

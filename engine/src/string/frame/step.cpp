@@ -1,4 +1,4 @@
-// One contact step, stage by stage (DESIGN of the stages: docs/engine/model.md, "The time step").
+// One contact step, stage by stage (docs/engine/model.md, "The time step").
 #include <algorithm>
 
 #include "jawari/scene/render.h"
@@ -37,7 +37,7 @@ void predict_velocity(const StringModel& model, StringState& state) {
 void find_impulses(const StringModel& model, StringState& state) {
     state.active_modes = model.shape->stride;  // an impulse wakes every mode
     solve_impulses(model, state);
-    while (admit_pushed_contacts(model, state)) {
+    while (admit_pushed_in_step(model, state)) {
         select_candidates(model, state);
         solve_impulses(model, state);
     }

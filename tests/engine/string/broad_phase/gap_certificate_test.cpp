@@ -41,7 +41,7 @@ struct FreeMotion {
     Number q, v;
 
     FreeMotion(const StringModel& model, double q0, double v0) : h(model.shape->step_s), q(q0), v(v0) {
-        const Number omega = model.tuning.omega[0], sigma = model.sigma[0];
+        const Number omega = model.tuning.omega[0], sigma = model.shape->sigma[0];
         e = exp(Number(-2 * sigma * h));
         if (sigma <= omega) {
             A = 2 * exp(Number(-sigma * h)) *

@@ -17,7 +17,7 @@ long double energy_by_definition(const StringModel& model, const StringState& st
     long double sum = 0;
     const long double h = model.shape->step_s;
     for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
-        const long double omega = model.tuning.omega[k], sigma = model.sigma[k];
+        const long double omega = model.tuning.omega[k], sigma = model.shape->sigma[k];
         const long double q = state.displacement[k], v = state.velocity[k];
         const long double e = std::exp(-2 * sigma * h);
         const std::complex<long double> W =
