@@ -63,7 +63,7 @@ void run_modes(std::size_t probes) {
         rows.push_back(model.shape->contact_rows.data() + p * model.shape->stride);
     AlignedVector<double> rates(std::max<std::size_t>(probes, 1) * 64);
     AlignedVector<double> lanes(std::max<std::size_t>(probes, 1) * kernels::steps_per_run * lane_padding);
-    AlignedVector<double> q = model.shape->initial_displacement, v = model.initial_velocity;
+    AlignedVector<double> q = model.shape->initial_displacement, v = model.shape->initial_velocity;
     kernels::ModeRun run = kernels::frame_run(model);
     run.probes = probes;
     run.probe_rows = rows.data();
@@ -120,7 +120,8 @@ void lcp() {
     const SceneModel scene = compiled("lab/bass", 2016000, ImpactLaw::Signorini);
     const StringModel& model = scene.strings[0];
     const std::size_t n = model.shape->contact_count;
-    const ContactOperator A{model.shape->compliance.data(), model.shape->contact_stride, nullptr};
+    const ContactOperator A{model.shape->compliance.data(), model.shape->contact_stride, nullptr,
+                            model.shape->compliance_id};
     std::vector<double> pressure(n), lambda(n), residual(n);
     for (std::size_t c = 0; c < n; ++c)
         pressure[c] = (c % 3 == 0 ? 1e-6 : -1e-6) * static_cast<double>(c + 1);

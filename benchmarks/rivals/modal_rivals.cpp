@@ -69,7 +69,7 @@ class ModalString {
     }
 
     void step() {
-        const std::size_t modes = model_.shape->stride, n = model_.contact_count;
+        const std::size_t modes = model_.shape->stride, n = model_.shape->contact_count;
         const double h = model_.shape->step_s;
         const double* carry = model_.shape->carry.data();
         const double* change = model_.shape->change.data();

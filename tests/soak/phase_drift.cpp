@@ -61,7 +61,7 @@ struct Closed {
 /// The motion that has these values of q and of the backward velocity at t = 0: what the state holds, and no
 /// rounding of the start is counted.
 Closed closed_form(const StringModel& model, const StringState& start, std::size_t k) {
-    const Real omega = model.tuning.omega[k], sigma = model.sigma[k], h = model.step_s;
+    const Real omega = model.tuning.omega[k], sigma = model.shape->sigma[k], h = model.shape->step_s;
     Closed closed{sqrt((omega - sigma) * (omega + sigma)), sigma, start.displacement[k], 0};
     const Real before = Real(start.displacement[k]) - h * Real(start.velocity[k]);
     closed.imaginary = (before * exp(-sigma * h) - closed.real * cos(closed.W * h)) / sin(closed.W * h);

@@ -46,7 +46,7 @@ double depth_of_law(ImpactLaw law, double restitution, double travel);
 
 void check_finite(Judge& judge, std::span<const double> values, const std::string& where);
 
-/// A string that is not finite is put to rest and counted: valid scenes never are (DESIGN of the check:
+/// A string that is not finite is put to rest and counted: valid scenes never are (see
 /// docs/engine/model.md, "The time step").
 void check_resets(Judge& judge, std::uint64_t resets, const std::string& where);
 

@@ -38,7 +38,7 @@ void print_result(const jawari::StringModel& model, const jawari::StringState& s
     double strongest_N = 0;
     for (const double force : force_N) strongest_N = force > strongest_N ? force : strongest_N;
 
-    std::printf("modes %zu, contacts %zu\n", model.mode_count, model.contact_count);
+    std::printf("modes %zu, contacts %zu\n", model.shape->mode_count, model.shape->contact_count);
     std::printf("steps %llu\n", static_cast<unsigned long long>(state.counters.steps));
     std::printf("impulses %llu\n", static_cast<unsigned long long>(state.counters.impulses));
     std::printf("worst_penetration_m %.3e\n", state.counters.worst_penetration_m);

@@ -32,6 +32,7 @@ struct ContactOperator {
     const double* values = nullptr;
     std::size_t stride = 0;               ///< between the rows of a dense matrix
     const std::uint32_t* node = nullptr;  ///< grid node of each contact, or null for a dense matrix
+    std::uint64_t id = 0;  ///< the same for the same operator only; 0: unknown, nothing is kept of it
 
     double operator()(std::size_t i, std::size_t j) const {
         if (node == nullptr) return values[i * stride + j];
@@ -40,13 +41,40 @@ struct ContactOperator {
     }
 };
 
+/// What a solver takes for rounding, as shares of the problem's own numbers.
+struct SolverTolerances {
+    double rounding;          ///< of the worst violation: violations up to this are none
+    double dependent_pivot;   ///< of its diagonal: a contact with a smaller pivot moves with the active ones
+    double largest_residual;  ///< of the worst violation: what leaves more is no solution
+};
+
+/// solve_lcp(): each row of its factor is made from the operator itself, so that a pivot is wrong by no more
+/// than a solve of up to limits::active_contacts unknowns rounds. No solver comes after it: a residual far
+/// above rounding, as nearly dependent contacts leave it, is still better than impulses scaled down.
+inline constexpr SolverTolerances factor_tolerances{1e-13, 1e-13, 1e-6};
+
+/// The pivot table of short frames (short_frame_contacts.h): entries carry the rounding of all pivots since
+/// the table was made, so that a pivot is known a hundred times less well. What the table cannot solve nearly
+/// to rounding goes to solve_lcp(), so that little is accepted.
+inline constexpr SolverTolerances table_tolerances{1e-13, 1e-11, 1e-9};
+
+/// Pivots after which solve_lcp() gives up, for active sets of up to `capacity` contacts.
+constexpr std::size_t most_pivots(std::size_t capacity) {
+    return 4 * capacity + 16;
+}
+
+/// Pivots after which a pivot table's problem is left to solve_lcp().
+constexpr std::size_t most_table_pivots(std::size_t contacts) {
+    return 2 * contacts;
+}
+
 /// Storage for active sets of up to `capacity` contacts. The factor outlives a solve: the next one of the
 /// same operator keeps what its first guess has in common.
 struct LcpWorkspace {
     std::size_t capacity = 0;
     std::size_t active_count = 0;
-    const double* factored = nullptr;  ///< values of the operator that the factor is of; null: of none
-    std::size_t repeated = 0;          ///< solves in a row that kept the active set
+    std::uint64_t factored = 0;  ///< id of the operator that the factor is of; 0: of none
+    std::size_t repeated = 0;    ///< solves in a row that kept the active set
     AlignedVector<double>
         inverse;  ///< of A over a small active set that has been kept, rows largest_inverse apart
     std::vector<std::uint32_t> active;  ///< indices of the active contacts, in order of the factor's rows

@@ -91,6 +91,9 @@ struct StringShape {
     /// A = h theta D = h theta S diag(w/mu) S^T [m/(N s)]: contact_count x contact_stride, or by grid
     /// distance.
     AlignedVector<double> compliance;
+    /// Made of the compliance's numbers: strings with the same id have the same operator. Not 0, which stands
+    /// for none.
+    std::uint64_t compliance_id = 0;
     std::size_t grid_intervals = 0;        ///< M if all contacts lie at x = j L/M below the string, else 0
     std::vector<std::uint32_t> grid_node;  ///< j of each contact, empty without a grid
     std::vector<std::ptrdiff_t>

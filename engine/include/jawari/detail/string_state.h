@@ -205,7 +205,7 @@ struct NearState {
 /// The Delassus operator with some contacts active, the others' gaps open: what sweep() of pivot_table_inl.h
 /// makes of it.
 struct PivotTable {
-    const double* of = nullptr;      ///< the operator, or null if the table is not made
+    std::uint64_t of = 0;            ///< StringShape::compliance_id, or 0 if the table is not made
     AlignedVector<double> values;    ///< contacts x contact_stride
     AlignedVector<double> sign;      ///< 1: active, -1: not; over contacts
     AlignedVector<double> scale;     ///< makes gaps of the solution: A_cc of active contacts, else 1

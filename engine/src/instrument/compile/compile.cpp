@@ -147,7 +147,7 @@ Result<StoppedStringModel> compile_stopped(const InstrumentDescription& instrume
     if (!std::isfinite(stopped.frequency_hz)) return stopped;
     const FretsDescription& frets = frets_of(instrument, instrument.strings[index]);
     stopped.key = instrument.strings[index].open_note + semitones_of(frets, fret);
-    std::string place = indexed_place("strings", index);
+    std::string place = detail::indexed_place("strings", index);
     const StringDescription description = stopped_string(instrument, index, fret);
     const auto& modes = std::get<PhysicalModes>(description.modes);
     if (modes.count > limits::instrument_modes) {

@@ -4,9 +4,8 @@
 #include <cmath>
 
 #include "instrument/model/stops.h"
-#include "string/compile/validate.h"
 
-namespace jawari {
+namespace jawari::detail {
 namespace {
 
 Check check_string_list(const std::string& place, const std::vector<std::size_t>& list, std::size_t strings) {
@@ -196,10 +195,6 @@ Check check_count(const std::string& place, std::size_t count, std::size_t low, 
                    std::to_string(low) + " to " + std::to_string(high)};
 }
 
-std::string indexed_place(const std::string& list, std::size_t i) {
-    return list + "[" + std::to_string(i) + "]";
-}
-
 Check check_place(const std::string& place, const StringPlace& value, double shortest_m) {
     if (value.share != 0) {
         if (value.share > 0 && value.share < 1) return {};
@@ -210,7 +205,12 @@ Check check_place(const std::string& place, const StringPlace& value, double sho
                    "between 0 and the shortest speaking length, " + printed(shortest_m) + ", ends excluded"};
 }
 
-Check validate(const InstrumentDescription& instrument, double output_rate_hz) {
+}  // namespace jawari::detail
+
+namespace jawari {
+
+std::optional<Failure> validate(const InstrumentDescription& instrument, double output_rate_hz) {
+    using namespace detail;
     if (auto failure = check_value("output rate", output_rate_hz, 8000, 1e6)) return failure;
     if (auto failure = check_value("gain", instrument.gain, 0, 1e6)) return failure;
     if (auto failure = check_quality("", instrument.quality)) return failure;

@@ -7,10 +7,11 @@
 
 #include "jawari/instrument/description.h"
 #include "jawari/result.h"
+#include "string/compile/validate.h"
 
 namespace jawari {
 
-using Check = std::optional<Failure>;
+namespace detail {
 
 struct CheckedValue {
     const char* name;
@@ -23,15 +24,14 @@ struct CheckedValue {
 Check check_value(const std::string& place, double value, double low, double high);
 Check check_values(const std::string& prefix, std::initializer_list<CheckedValue> values);
 Check check_count(const std::string& place, std::size_t count, std::size_t low, std::size_t high);
-/// `list[i]`
-std::string indexed_place(const std::string& list, std::size_t i);
-
-/// The first value that is not allowed, if any.
-Check validate(const InstrumentDescription& instrument, double output_rate_hz);
-
 /// Exciters, hand, pickups and body; `shortest_m`: the shortest speaking length.
 Check validate_players(const InstrumentDescription& instrument, double shortest_m);
 Check validate_output(const InstrumentDescription& instrument, double shortest_m);
 Check check_place(const std::string& place, const StringPlace& value, double shortest_m);
+
+}  // namespace detail
+
+/// The first value that is not allowed, if any.
+std::optional<Failure> validate(const InstrumentDescription& instrument, double output_rate_hz);
 
 }  // namespace jawari

@@ -1,7 +1,7 @@
 // The parts of an instrument that excite, damp and listen.
 #include "instrument/compile/validate.h"
 
-namespace jawari {
+namespace jawari::detail {
 namespace {
 
 Check check_body(const std::string& place, const FingerDescription& finger) {
@@ -104,4 +104,4 @@ Check validate_output(const InstrumentDescription& instrument, double shortest_m
     return Failure{"pickups", "none", "at least one pickup, or a body"};
 }
 
-}  // namespace jawari
+}  // namespace jawari::detail

@@ -1,5 +1,6 @@
 #include "string/broad_phase/pushed_contacts.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "string/broad_phase/gap_bounds.h"
@@ -8,25 +9,35 @@
 namespace jawari {
 namespace {
 
-/// What the step's impulses may move a group's gaps until the frame's end.
+/// What the step's impulses may move a group's gaps until the frame's end [m].
 double push_of_step(const StringModel& model, const StringState& state, std::size_t g) {
+    const StringShape& shape = *model.shape;
     const ContactState& contact = state.contact;
-    const double* push = model.shape->certificate.push_speed.data() + g * model.shape->contact_count;
+    const double* push_speed = shape.certificate.push_speed.data() + g * shape.contact_count;
     double speed = 0;
-    for (const auto c : contact.candidates) speed += push[c] * contact.impulse[c];
-    const double time_left = model.shape->step_s * static_cast<double>(state.steps_left) + lookahead(model);
+    for (const auto c : contact.candidates) speed += push_speed[c] * contact.impulse[c];
+    const double time_left = shape.step_s * static_cast<double>(state.steps_left) + lookahead(model);
     return bound_safety * model.tuning.certificate.push_growth * speed * time_left;
 }
 
-}  // namespace
+/// What all impulses of a frame in contact space may have moved a group's gaps [m].
+double push_of_frame(const StringModel& model, const StringState& state, std::size_t g) {
+    const NearState& near = state.near_frame;
+    const double* push_path = model.tuning.certificate.push_path.data() + g * model.shape->contact_count;
+    double path = 0;
+    for (const auto c : near.struck) path += push_path[c] * state.contact.frame_impulse[c];
+    return bound_safety * path;
+}
 
-bool admit_pushed_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME {
-    ContactState& contact = state.contact;
-    if (contact.near.size() == model.shape->contact_count) return false;
+/// Calls join(c) for the contacts that are not near and have no margin left once push_of_group(g) [m] is
+/// charged to it. Returns whether there are any.
+template <class Push, class Join>
+bool admit(const StringModel& model, StringState& state, const Push& push_of_group, const Join& join) {
+    const ContactState& contact = state.contact;
     GapBounds& bounds = state.certificate.bounds;
     bool admitted = false;
     for (std::size_t g = 0; g < group_count(model); ++g) {
-        const double push = bounds.group_push[g] + push_of_step(model, state, g);
+        const double push = push_of_group(g);
         if (bounds.group_margin[g] > push) continue;
         double smallest = std::numeric_limits<double>::infinity();
         for (const std::size_t c : contacts_of(model, g)) {
@@ -35,7 +46,7 @@ bool admit_pushed_contacts(const StringModel& model, StringState& state) JAWARI_
                 smallest = std::min(smallest, bounds.margin[c]);
                 continue;
             }
-            join_step(model, state, c);
+            join(c);
             admitted = true;
         }
         bounds.group_margin[g] = smallest;
@@ -43,11 +54,31 @@ bool admit_pushed_contacts(const StringModel& model, StringState& state) JAWARI_
     return admitted;
 }
 
+}  // namespace
+
+bool admit_pushed_in_step(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    if (state.contact.near.size() == model.shape->contact_count) return false;
+    return admit(
+        model, state,
+        [&](std::size_t g) { return state.certificate.bounds.group_push[g] + push_of_step(model, state, g); },
+        [&](std::size_t c) { join_step(model, state, c); });
+}
+
 void charge_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME {
     state.certificate.validity.outdated = true;
     if (state.contact.near.size() == model.shape->contact_count) return;
     std::vector<double>& push = state.certificate.bounds.group_push;
     for (std::size_t g = 0; g < group_count(model); ++g) push[g] += push_of_step(model, state, g);
+}
+
+bool admit_pushed_in_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    ContactState& contact = state.contact;
+    return admit(
+        model, state,
+        [&](std::size_t g) {
+            return state.certificate.bounds.group_push[g] = push_of_frame(model, state, g);
+        },
+        [&](std::size_t c) { make_near(contact, c); });
 }
 
 }  // namespace jawari

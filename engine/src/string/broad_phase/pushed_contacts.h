@@ -1,4 +1,4 @@
-// The impulses of a stepped frame may push contacts in that were certified before the impulses were known
+// The impulses of a frame may push contacts in that were certified before the impulses were known
 // (docs/engine/certificate.md, section 5).
 #pragma once
 
@@ -8,12 +8,15 @@
 
 namespace jawari {
 
-/// Makes those contacts near, with their gaps in this step, that the impulses just found may push in. Returns
-/// true if there are any: the step's impulses must then be solved again.
-bool admit_pushed_contacts(const StringModel& model, StringState& state) JAWARI_REALTIME;
+/// Of a stepped frame. True if the impulses just found may reach contacts that are not near; they are then
+/// near, with their gaps in this step, and the step's impulses must be found again.
+bool admit_pushed_in_step(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
-/// Adds what the step's impulses may move the contacts that are not near, until the frame's end, to
-/// group_push.
+/// Of a stepped frame: charges the step's impulses to the margins of the other contacts, for the rest of it.
 void charge_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME;
+
+/// Of a frame solved in contact space. True if its impulses may have reached contacts that are not near; they
+/// are then near, and the frame must be solved again from its start.
+bool admit_pushed_in_frame(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
 }  // namespace jawari

@@ -204,7 +204,7 @@ Result<StringModel> compile_string(const StringDescription& string, const SceneD
     set_modes(draft, string);
     set_step(draft, scene);
     if (auto failure = set_contacts(*draft.shape, string, place)) return *failure;
-    set_compliance(draft);
+    set_compliance(*draft.shape);
     if (scene.scheme == Scheme::Exact) set_skipping(draft);
     if (!set_initial_state(draft, string.initial)) {
         return Failure{place + ".contacts", "obstacles from both sides",

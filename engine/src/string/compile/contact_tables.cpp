@@ -1,6 +1,7 @@
 #include "string/compile/contact_tables.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -63,6 +64,19 @@ void set_dense_compliance(StringShape& shape) {
         kernels::row_products(shape.contact_count, shape.stride, shape.stride, shape.contact_rows.data(),
                               response.data(), shape.compliance.data() + c * shape.contact_stride);
     }
+}
+
+/// FNV-1a over the numbers that make the operator, a word at a time.
+std::uint64_t identity_of(const StringShape& shape) {
+    std::uint64_t id = 0xcbf29ce484222325;
+    const auto add = [&](std::uint64_t word) {
+        id = (id ^ word) * 0x100000001b3;
+        id ^= id >> 32;  // the product carries nothing downwards
+    };
+    add(shape.contact_count);
+    for (const std::uint32_t node : shape.grid_node) add(node);
+    for (const double value : shape.compliance) add(std::bit_cast<std::uint64_t>(value));
+    return std::max<std::uint64_t>(id, 1);
 }
 
 kernels::ModeRun run_of_unit_impulse(const StringModel& model, const AlignedVector<double>& impulse) {
@@ -151,10 +165,7 @@ double largest_push(const StringModel& model, std::size_t struck, std::size_t co
     return -lowest;
 }
 
-}  // namespace
-
-void set_compliance(StringDraft& draft) {
-    StringShape& shape = *draft.shape;
+void set_compliance_values(StringShape& shape) {
     shape.contact_stride = padded(shape.contact_count);
     shape.grid_intervals = grid_intervals(shape);
     if (shape.grid_intervals == 0) {
@@ -170,6 +181,13 @@ void set_compliance(StringDraft& draft) {
         amplitudes[k] = shape.step_s * shape.theta * shape.mobility[k];
     shape.compliance.assign(2 * shape.grid_intervals, 0.0);
     cosine_table(shape, shape.grid_intervals, amplitudes, 1, shape.compliance.data(), 1);
+}
+
+}  // namespace
+
+void set_compliance(StringShape& shape) {
+    set_compliance_values(shape);
+    shape.compliance_id = identity_of(shape);
 }
 
 void set_responses(StringDraft& draft) {

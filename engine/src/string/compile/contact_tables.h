@@ -16,7 +16,7 @@ inline constexpr std::size_t largest_response_table = std::size_t{1} << 22;
 inline constexpr std::size_t longest_step_response = 16;
 
 /// Finds out whether the contacts lie on a uniform grid, then fills the compliance.
-void set_compliance(StringDraft& draft);
+void set_compliance(StringShape& shape);
 
 /// Fills the responses, if they are not too large, and with them how far impulses push other contacts within
 /// a frame.

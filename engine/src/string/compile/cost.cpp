@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "jawari/detail/lcp.h"
 #include "string/broad_phase/gap_bounds.h"
 #include "string/frame/short_frame.h"
 
@@ -17,17 +18,21 @@ constexpr double bound_operations = 17;
 
 struct Sizes {
     double modes, contacts, padded_contacts, active, groups, steps;
+    double pivots, table_pivots;  ///< at most
 };
 
 Sizes counted_sizes(const StringModel& model) {
     const std::size_t groups =
         model.shape->certificate.group_begin.empty() ? 0 : model.shape->certificate.group_begin.size() - 1;
+    const std::size_t active = std::min(model.shape->contact_count, limits::active_contacts);
     return {static_cast<double>(model.shape->stride),
             static_cast<double>(model.shape->contact_count),
             static_cast<double>(model.shape->contact_stride),
-            static_cast<double>(std::min(model.shape->contact_count, limits::active_contacts)),
+            static_cast<double>(active),
             static_cast<double>(groups),
-            static_cast<double>(model.shape->steps_per_frame)};
+            static_cast<double>(model.shape->steps_per_frame),
+            static_cast<double>(most_pivots(active)),
+            static_cast<double>(most_table_pivots(model.shape->contact_count))};
 }
 
 /// Bounds afresh, gaps at both ends of the frame, and the flight between them.
@@ -62,12 +67,11 @@ double steady_solve(const Sizes& n) {
     return n.active * (n.active + 1) + n.active * n.contacts;
 }
 
-/// Four times the active contacts plus 16 pivots (lcp.cpp), each with a factor anew in the worst case.
+/// All pivots that solve_lcp() may take, each with a factor anew in the worst case.
 double longest_solve(const Sizes& n) {
     const double factor = n.active * n.active * n.active / 3;
-    const double pivots = 4 * n.active + 16;
     return 2 * n.contacts * n.active +
-           pivots * (2 * factor + 4 * n.active * n.active + n.active * n.contacts);
+           n.pivots * (2 * factor + 4 * n.active * n.active + n.active * n.contacts);
 }
 
 /// All modes through a short frame, the rates of all contacts at each step, and the response to all impulses
@@ -88,11 +92,11 @@ double short_solve(const Sizes& n) {
     return n.padded_contacts * (2 * n.active + 1);
 }
 
-/// Twice as many pivots as there are contacts, each with a product, and the general solver where they fail.
+/// All pivots that a table may take, each with a product, and the general solver where they fail.
 double longest_short_solve(const Sizes& n) {
     const double table = n.contacts * n.padded_contacts;
     const double remake = table * n.active;
-    return remake + 2 * n.contacts * (table + n.active * n.padded_contacts) + longest_solve(n);
+    return remake + n.table_pivots * (table + n.active * n.padded_contacts) + longest_solve(n);
 }
 
 /// Gaps and rates at the frame's start, where they are not known.

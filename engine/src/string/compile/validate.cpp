@@ -9,7 +9,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-using Check = std::optional<Failure>;
+using detail::Check;
+using detail::indexed_place;
 
 struct Range {
     double low = 0;
@@ -43,10 +44,6 @@ Check check_count(const std::string& place, std::size_t value, std::size_t low, 
     return Failure{place, std::to_string(value), std::to_string(low) + " to " + std::to_string(high)};
 }
 
-std::string indexed(const std::string& list, std::size_t i) {
-    return list + "[" + std::to_string(i) + "]";
-}
-
 /// The first failure of several checks.
 template <class... Rest>
 Check first(Check check, Rest... rest) {
@@ -59,7 +56,7 @@ Check first(Check check, Rest... rest) {
 
 Check check_list(const std::string& place, const std::vector<double>& values, const Range& range) {
     for (std::size_t i = 0; i < values.size(); ++i) {
-        if (auto failure = check(indexed(place, i), values[i], range)) return failure;
+        if (auto failure = check(indexed_place(place, i), values[i], range)) return failure;
     }
     return {};
 }
@@ -75,7 +72,7 @@ Check check_damping(const std::string& place, const ValetteLoss& loss) {
 
 Check check_damping(const std::string& place, const DecayTimePoints& decay) {
     for (std::size_t i = 0; i < decay.points.size(); ++i) {
-        const std::string point = indexed(place + ".points", i);
+        const std::string point = indexed_place(place + ".points", i);
         if (auto failure = first(check(point + ".frequency_hz", decay.points[i].frequency_hz, positive),
                                  check(point + ".t60_s", decay.points[i].t60_s, positive))) {
             return failure;
@@ -147,7 +144,7 @@ Check check_contacts(const std::string& place, const StringDescription& string) 
     if (auto failure = check_count(place, string.contacts.size(), 0, limits::contacts)) return failure;
     for (std::size_t i = 0; i < string.contacts.size(); ++i) {
         const ContactDescription& contact = string.contacts[i];
-        const std::string at = indexed(place, i);
+        const std::string at = indexed_place(place, i);
         if (auto failure = first(check(at + ".position_m", contact.position_m, {0, string.length_m}),
                                  check(at + ".height_m", contact.height_m, any_finite),
                                  check(at + ".restitution", contact.restitution, {0, 1}))) {
@@ -161,7 +158,7 @@ Check check_probes(const std::string& place, const StringDescription& string) {
     if (auto failure = check_count(place, string.probes.size(), 0, limits::probes)) return failure;
     for (std::size_t i = 0; i < string.probes.size(); ++i) {
         const ProbeDescription& probe = string.probes[i];
-        const std::string at = indexed(place, i);
+        const std::string at = indexed_place(place, i);
         if (probe.quantity == Quantity::ContactForce) {
             if (probe.contact < string.contacts.size()) continue;
             return Failure{at + ".contact", std::to_string(probe.contact),
@@ -218,6 +215,10 @@ Check check_scheme(const SceneDescription& scene) {
 
 }  // namespace
 
+std::string detail::indexed_place(const std::string& list, std::size_t i) {
+    return list + "[" + std::to_string(i) + "]";
+}
+
 const char* name_of(ImpactLaw law) {
     switch (law) {
         case ImpactLaw::Newton:
@@ -247,7 +248,7 @@ std::optional<Failure> validate(const SceneDescription& scene) {
         return failure;
     }
     for (std::size_t i = 0; i < scene.strings.size(); ++i) {
-        if (auto failure = check_string(indexed("strings", i), scene.strings[i])) return failure;
+        if (auto failure = check_string(indexed_place("strings", i), scene.strings[i])) return failure;
     }
     return {};
 }

@@ -217,8 +217,8 @@ void put_to_rest(const StringModel& model, StringState& state) noexcept {
 
 void notice_change(const StringModel& model, StringState& state) noexcept {
     state.contact.left_open = 0;
-    state.lcp.factored = nullptr;
-    state.short_frame.table.of = nullptr;
+    state.lcp.factored = 0;
+    state.short_frame.table.of = 0;
     state.active_modes = model.shape->stride;
     state.asleep = false;
     choose_all_contacts(model, state);

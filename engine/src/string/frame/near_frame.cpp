@@ -6,6 +6,7 @@
 #include "base/assert.h"
 #include "string/broad_phase/gap_bounds.h"
 #include "string/broad_phase/gap_certificate.h"
+#include "string/broad_phase/pushed_contacts.h"
 #include "string/contact/contact_stage.h"
 #include "string/kernels/mode_bounds.h"
 #include "string/kernels/mode_run.h"
@@ -169,25 +170,6 @@ void solve_in_contact_space(const StringModel& model, StringState& state) {
     }
 }
 
-/// Makes those contacts near that the frame's impulses may have pushed in; true if there are any.
-bool admit_pushed(const StringModel& model, StringState& state) {
-    ContactState& contact = state.contact;
-    GapBounds& bounds = state.certificate.bounds;
-    const std::size_t before = contact.near.size();
-    for (std::size_t g = 0; g < group_count(model); ++g) {
-        const double* push_by = model.tuning.certificate.push_path.data() + g * model.shape->contact_count;
-        double push = 0;
-        for (const auto struck : state.near_frame.struck)
-            push += push_by[struck] * contact.frame_impulse[struck];
-        bounds.group_push[g] = push;
-        if (bounds.group_margin[g] > push) continue;
-        for (const std::size_t c : contacts_of(model, g)) {
-            if (contact.is_near[c] == 0 && !(bounds.margin[c] > push)) make_near(contact, c);
-        }
-    }
-    return contact.near.size() > before;
-}
-
 /// Adds the response of the modes to the impulses to the frame's end. It is computed for unit mobility and
 /// scaled at the end.
 void run_impulses(const StringModel& model, StringState& state) {
@@ -226,7 +208,7 @@ bool solve_near_frame(const StringModel& model, StringState& state) JAWARI_REALT
         known = contact.near.size();
         save_start(state);
         solve_in_contact_space(model, state);
-        if (!admit_pushed(model, state)) break;
+        if (!admit_pushed_in_frame(model, state)) break;
         restore_start(state);
         place_gaps(model, state);
     } while (true);

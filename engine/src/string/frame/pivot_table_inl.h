@@ -26,8 +26,6 @@ using Vec = hn::Vec<Lanes>;
 constexpr std::size_t width = 6;
 /// After so many pivots the table is made anew.
 constexpr std::size_t pivots_of_a_table = 256;
-/// A contact whose pivot is below this share of its diagonal depends on the active ones.
-constexpr double dependent_pivot = 1e-11;
 
 /// Calls work.run<vectors>(c) for all vectors of contacts, `width` of them at a time.
 template <class Work>
@@ -115,7 +113,7 @@ inline void begin_table(const StringModel& model, PivotTable& table) {
     std::copy_n(model.shape->compliance.data(), size, table.values.begin());
     std::fill(table.sign.begin(), table.sign.end(), -1.0);
     std::fill(table.scale.begin(), table.scale.end(), 1.0);
-    table.of = model.shape->compliance.data();
+    table.of = model.shape->compliance_id;
     table.active.clear();
     table.pivots = 0;
 }

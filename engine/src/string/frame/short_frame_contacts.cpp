@@ -21,9 +21,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Lanes = hn::ScalableTag<double>;
 using Vec = hn::Vec<Lanes>;
 
-/// The general solver takes over if the residual exceeds this share of the worst violation.
-constexpr double largest_relative_residual = 1e-9;
-
 /// min(0, y_before + excused), impact_law.h
 HWY_INLINE Vec signorini_target(Lanes d, const ContactState& contact, Vec excused, std::size_t c) {
     return hn::Min(hn::Add(hn::Load(d, contact.gap_before.data() + c), excused), hn::Zero(d));
@@ -108,20 +105,20 @@ double settle_impulses(const StringModel& model, StringState& state, double tole
 /// too many of them or a contact depends on the active ones; impulses are then unknown.
 bool solve_by_pivots(const StringModel& model, StringState& state, double lowest) {
     PivotTable& table = state.short_frame.table;
-    const double tolerance = -1e-13 * lowest;
+    const double tolerance = -table_tolerances.rounding * lowest;
     const std::size_t stride = model.shape->contact_stride;
-    if (table.of != model.shape->compliance.data()) begin_table(model, table);
+    if (table.of != model.shape->compliance_id) begin_table(model, table);
     if (table.pivots > pivots_of_a_table) remake_table(model, table);
-    for (std::size_t pivots = 0; pivots <= 2 * model.shape->contact_count; ++pivots) {
+    for (std::size_t pivots = 0; pivots <= most_table_pivots(model.shape->contact_count); ++pivots) {
         for_contacts(stride, SolveTable{table, state.contact.offset.data(), stride, table.solution.data()});
         const std::size_t j = worst_of(model, table, tolerance);
         if (j == none) {
             const double residual = settle_impulses(model, state, tolerance);
             state.counters.worst_residual_m = std::max(state.counters.worst_residual_m, residual);
             state.contact.left_open = residual;
-            return residual <= -largest_relative_residual * lowest;
+            return residual <= -table_tolerances.largest_residual * lowest;
         }
-        const double least = dependent_pivot * model.shape->compliance[j * stride + j];
+        const double least = table_tolerances.dependent_pivot * model.shape->compliance[j * stride + j];
         if (table.sign[j] < 0 && !(table.values[j * stride + j] > least)) return false;
         sweep(model, table, j);
     }
@@ -131,7 +128,7 @@ bool solve_by_pivots(const StringModel& model, StringState& state, double lowest
 /// The general solver, which handles every case; candidates <- the contacts with impulses.
 void solve_in_general(const StringModel& model, StringState& state) {
     ContactState& contact = state.contact;
-    state.short_frame.table.of = nullptr;
+    state.short_frame.table.of = 0;
     contact.candidates.fill_to(model.shape->contact_count);
     solve_impulses(model, state);
     contact.candidates.filter([&](std::uint32_t c) { return contact.impulse[c] > 0; });

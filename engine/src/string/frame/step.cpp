@@ -40,7 +40,7 @@ void predict_velocity(const StringModel& model, StringState& state) {
 void find_impulses(const StringModel& model, StringState& state) {
     state.active_modes = model.shape->stride;  // an impulse wakes every mode
     solve_impulses(model, state);
-    while (admit_pushed_contacts(model, state)) {
+    while (admit_pushed_in_step(model, state)) {
         select_candidates(model, state);
         solve_impulses(model, state);
     }

@@ -39,7 +39,7 @@ struct StepImpulse {
 };
 
 /// rates += what the impulse does to the rates of the near contacts at all later steps of the frame, by
-/// model.response; rows in the order of `near`, response_stride apart.
+/// StringTuning::response; rows in the order of `near`, response_stride apart.
 void spread_impulse(const StringModel& model, std::span<const std::uint32_t> near, const StepImpulse& step,
                     double* rates) noexcept;
 

@@ -12,7 +12,8 @@ namespace jawari {
 /// A = h theta D
 inline ContactOperator compliance_of(const StringModel& model) {
     return {model.shape->compliance.data(), model.shape->contact_stride,
-            model.shape->grid_node.empty() ? nullptr : model.shape->grid_node.data()};
+            model.shape->grid_node.empty() ? nullptr : model.shape->grid_node.data(),
+            model.shape->compliance_id};
 }
 
 /// Gap rate of a contact n steps after 1 N s at the struck one: direct[n] - mirrored[n] [1/kg].

@@ -8,15 +8,10 @@
 namespace jawari {
 namespace {
 
-// A contact whose squared pivot is below this share of its diagonal moves together with the active ones
-// (coincident contacts).
-constexpr double dependent_pivot = 1e-13;
+constexpr SolverTolerances tolerances = factor_tolerances;
 constexpr int predictor_sweeps = 2;
 // Solves in a row with the same active set, after which its inverse is worth making.
 constexpr std::size_t lasting = 8;
-// A solution whose residual is larger than this share of the worst violation is none.
-constexpr double largest_relative_residual = 1e-6;
-
 // Of nearly dependent contacts, rounding may come to this many times the tolerance.
 constexpr double largest_rounding = 1000;
 // Nothing is done about violations below this: their tolerance would underflow.
@@ -74,7 +69,7 @@ bool append_active(const Problem& p, std::size_t contact) {
     auto row = p.vector(work.direction);
     p.factor().triangularView<Eigen::Lower>().solveInPlace(row);
     const double pivot = p.a(contact, contact) - row.squaredNorm();
-    if (!(pivot > dependent_pivot * p.a(contact, contact))) return false;
+    if (!(pivot > tolerances.dependent_pivot * p.a(contact, contact))) return false;
     double* factor_row = work.factor.data() + work.active_count * work.capacity;
     std::copy_n(work.direction.data(), work.active_count, factor_row);
     factor_row[work.active_count] = std::sqrt(pivot);
@@ -282,7 +277,7 @@ bool bring_in(const Problem& p, std::size_t entering, std::size_t& pivots_left) 
         for (std::size_t i = 0; i < work.active_count; ++i) {
             curvature -= work.direction[i] * p.a(entering, work.active[i]);
         }
-        const bool dependent = !(curvature > dependent_pivot * p.a(entering, entering));
+        const bool dependent = !(curvature > tolerances.dependent_pivot * p.a(entering, entering));
         double length = dependent ? std::numeric_limits<double>::infinity() : -violation / curvature;
         std::size_t blocking = work.active_count;
         for (std::size_t i = 0; i < work.active_count; ++i) {
@@ -334,20 +329,20 @@ LcpOutcome solve_lcp(const ContactOperator& A, std::span<const double> r,
     Problem p{A, r, candidates, lambda, residual, workspace};
     double lowest = 0;
     for (const auto c : candidates) lowest = std::min(lowest, r[c]);
-    p.tolerance = -1e-13 * lowest;
+    p.tolerance = -tolerances.rounding * lowest;
     if (-lowest < smallest_violation) {
         for (const auto c : candidates) lambda[c] = 0;
         for (const auto c : candidates) residual[c] = r[c];
         return {};
     }
 
-    if (workspace.factored != A.values) workspace.active_count = workspace.repeated = 0;
-    workspace.factored = A.values;
+    if (A.id == 0 || workspace.factored != A.id) workspace.active_count = workspace.repeated = 0;
+    workspace.factored = A.id;
 
     if (!last_set_holds(p)) predict(p);
 
     LcpOutcome outcome;
-    const std::size_t bound = 4 * workspace.capacity + 16;
+    const std::size_t bound = most_pivots(workspace.capacity);
     std::size_t pivots_left = bound;
     for (std::size_t entering = most_violated(p); entering != none; entering = most_violated(p)) {
         if (pivots_left == 0 || !bring_in(p, entering, pivots_left)) {
@@ -362,7 +357,7 @@ LcpOutcome solve_lcp(const ContactOperator& A, std::span<const double> r,
     outcome.residual = natural_residual(p);
     // Contradictory contacts whose pivot is just not recognised as dependent end with enormous impulses and a
     // poor residual.
-    if (!(outcome.residual <= -largest_relative_residual * lowest)) outcome.finished = false;
+    if (!(outcome.residual <= -tolerances.largest_residual * lowest)) outcome.finished = false;
     if (!outcome.finished) {
         for (const auto c : candidates) {
             if (!is_active(workspace, c)) lambda[c] = 0;

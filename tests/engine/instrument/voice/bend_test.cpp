@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
@@ -278,6 +279,50 @@ TEST(Bend, ShortFramesAgreeWithUniformStepping) {
     expect_skipping_changes_nothing(model, {1.0, 2.0, 4.0, 8.0});
 }
 
+TEST(Bend, LeavesTheUsersChoiceOfSkippingAlone) {
+    InstrumentDescription bass = test::bass_instrument();
+    bass.strings.resize(1);
+    const InstrumentModel model = compile_instrument(bass, 48000).value();
+    for (const bool near : {false, true}) {
+        Voice voice = make_voice(model.strings[0].sizes);
+        voice.string.skipping.near = near;
+        start_voice(model, model.strings[0], voice, 0, 0, 0);
+        PlayerWork work;
+        for (const double semitones : {2.0, -1.0, 0.0}) {
+            set_bend(model.strings[0].stopped[0], voice, semitones, work);
+            EXPECT_EQ(voice.string.skipping.near, near) << semitones;
+        }
+    }
+}
+
+/// A bent string is the compiled one but for its tension, and has no table that holds at another.
+TEST(Bend, SharesTheShapeAndOwnsTheTuning) {
+    InstrumentDescription bass = test::bass_instrument();
+    bass.strings.resize(1);
+    const InstrumentModel model = compile_instrument(bass, 48000).value();
+    const StoppedStringModel& stopped = model.strings[0].stopped[0];
+    Voice voice = make_voice(model.strings[0].sizes);
+    start_voice(model, model.strings[0], voice, 0, 0, 0);
+    PlayerWork work;
+    set_bend(stopped, voice, 1e-9, work);
+    StringModel& bent = voice.bend.model;
+    EXPECT_EQ(bent.shape, stopped.string.shape);
+    EXPECT_TRUE(bent.tuning.response.empty());
+    EXPECT_TRUE(bent.tuning.step_response.empty());
+    EXPECT_TRUE(bent.tuning.certificate.push_path.empty());
+    StringTuning compiled = stopped.string.tuning;
+    const auto expected = mode_arrays(compiled);
+    const auto retuned = mode_arrays(bent.tuning);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        const AlignedVector<double>& values = *expected[i];
+        const double largest = *std::max_element(
+            values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+        for (std::size_t k = 0; k < bent.shape->mode_count; ++k)
+            ASSERT_NEAR((*retuned[i])[k], values[k], 1e-6 * std::abs(largest))
+                << "array " << i << ", mode " << k;
+    }
+}
+
 /// What impulses do to the bounds of other contacts at the bent tension, from its definition.
 TEST(Bend, PushesGrowByNoMoreThanTheirFactor) {
     InstrumentDescription bass = test::bass_instrument();
@@ -297,7 +342,7 @@ TEST(Bend, PushesGrowByNoMoreThanTheirFactor) {
                     push += std::abs(bent.shape->contact_rows[g * bent.shape->stride + k] *
                                      bent.tuning.certificate.kick[k] *
                                      bent.shape->contact_rows[c * bent.shape->stride + k]);
-                EXPECT_LE(push, bent.tuning.certificate.push[g * bent.shape->contact_count + c] *
+                EXPECT_LE(push, bent.shape->certificate.push_speed[g * bent.shape->contact_count + c] *
                                     bent.tuning.certificate.push_growth * (1 + 1e-12));
             }
         }

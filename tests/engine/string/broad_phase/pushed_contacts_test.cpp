@@ -33,7 +33,6 @@ Struck struck_string(double growth) {
     }
     Struck struck{test::compiled_string(scene), {}, 0};
     StringModel& model = struck.model;
-    model.tuning.certificate.push = model.shape->certificate.push_speed;  // as a retuned string's
     model.tuning.certificate.push_growth = growth;
     struck.state = make_string_state(model);
     StringState& state = struck.state;
@@ -59,25 +58,46 @@ TEST(Push, AContactThatTheImpulseMayReachJoinsTheStep) {
     for (const double growth : {1.0, 1.7}) {
         Struck out_of_reach = struck_string(growth);
         set_margin(out_of_reach, 1.001 * out_of_reach.pushed_m);
-        EXPECT_FALSE(admit_pushed_contacts(out_of_reach.model, out_of_reach.state));
+        EXPECT_FALSE(admit_pushed_in_step(out_of_reach.model, out_of_reach.state));
         EXPECT_EQ(out_of_reach.state.contact.near.size(), 1U);
 
         Struck in_reach = struck_string(growth);
         set_margin(in_reach, 0.999 * in_reach.pushed_m);
-        EXPECT_TRUE(admit_pushed_contacts(in_reach.model, in_reach.state));
+        EXPECT_TRUE(admit_pushed_in_step(in_reach.model, in_reach.state));
         ASSERT_EQ(in_reach.state.contact.near.size(), 2U);
         EXPECT_EQ(in_reach.state.contact.near[1], 1U);
-        EXPECT_FALSE(admit_pushed_contacts(in_reach.model, in_reach.state));  // nobody is left
+        EXPECT_FALSE(admit_pushed_in_step(in_reach.model, in_reach.state));  // nobody is left
     }
 }
 
 TEST(Push, ImpulsesOfAFrameAddUp) {
     Struck struck = struck_string(1);
     set_margin(struck, 1.5 * struck.pushed_m);
-    EXPECT_FALSE(admit_pushed_contacts(struck.model, struck.state));
+    EXPECT_FALSE(admit_pushed_in_step(struck.model, struck.state));
     charge_impulses(struck.model, struck.state);
     EXPECT_NEAR(struck.state.certificate.bounds.group_push[1], struck.pushed_m, 1e-8 * struck.pushed_m);
-    EXPECT_TRUE(admit_pushed_contacts(struck.model, struck.state));
+    EXPECT_TRUE(admit_pushed_in_step(struck.model, struck.state));
+}
+
+/// Sums of bounds are rounded; what they bound is taken for 1e-9 more. A margin between the two is none.
+TEST(Push, TheBoundIsWidenedInStepsAndInFrames) {
+    constexpr double between = 1 + 0.5e-9;
+    Struck step = struck_string(1);
+    set_margin(step, between * step.pushed_m);
+    EXPECT_TRUE(admit_pushed_in_step(step.model, step.state));
+
+    Struck frame = struck_string(1);
+    ASSERT_FALSE(frame.model.tuning.response.empty());
+    frame.state.near_frame.struck.push(0);
+    frame.state.contact.frame_impulse[0] = 0.003;
+    const double path_m = 0.003 * frame.model.tuning.certificate.push_path[2];  // of contact 0 on group 1
+    ASSERT_GT(path_m, 0);
+    set_margin(frame, (1 + 2e-9) * path_m);
+    EXPECT_FALSE(admit_pushed_in_frame(frame.model, frame.state));
+    set_margin(frame, between * path_m);
+    EXPECT_TRUE(admit_pushed_in_frame(frame.model, frame.state));
+    EXPECT_EQ(frame.state.contact.near.size(), 2U);
+    EXPECT_GE(frame.state.certificate.bounds.group_push[1], between * path_m);
 }
 
 /// How far 1 N s at a contact lowers the gaps of a group within the frame, step by step; Newton's law acts on
@@ -119,10 +139,10 @@ TEST(Push, TabulatedOnesAreWhatSteppingShows) {
             const std::vector<std::size_t>& begin = model.shape->certificate.group_begin;
             const std::size_t groups = begin.size() - 1;
             double largest = 0;
-            for (const double push : model.tuning.certificate.push) largest = std::max(largest, push);
+            for (const double push : model.tuning.certificate.push_path) largest = std::max(largest, push);
             for (std::size_t g = 0; g < groups; g += 1 + groups / 7) {
                 for (std::size_t struck = 0; struck < contacts; struck += 1 + contacts / 5) {
-                    EXPECT_NEAR(model.tuning.certificate.push[g * contacts + struck],
+                    EXPECT_NEAR(model.tuning.certificate.push_path[g * contacts + struck],
                                 stepped_push(model, struck, begin[g], begin[g + 1]), 1e-9 * largest)
                         << "group " << g << ", contact " << struck;
                 }

@@ -66,7 +66,8 @@ struct RepeatedSolves {
             for (std::size_t i = 0; i < n; ++i) r[i] -= A[i * n + j] * impulses[j];
         }
         const double violation = -*std::min_element(r.begin(), r.end());
-        const LcpOutcome outcome = solve_lcp({A.data(), n}, r, candidates, lambda, residual, workspace);
+        const LcpOutcome outcome =
+            solve_lcp({A.data(), n, nullptr, 1}, r, candidates, lambda, residual, workspace);
         EXPECT_TRUE(outcome.finished);
         EXPECT_LE(residual_of(A, r, lambda), 1e-9 * violation);
         return outcome.pivots;

@@ -287,6 +287,26 @@ TEST(Lcp, TouchesOnlyCandidates) {
     }
 }
 
+/// Memory is used again: what is kept of an operator must not serve another one at its address.
+TEST(Lcp, AnOperatorInThePlaceOfAnotherIsSolvedAfresh) {
+    const std::vector<std::uint32_t> candidates{0, 1};
+    const std::vector<double> r{-1, -1};
+    std::vector<double> A{2, 0, 0, 2}, lambda(2, 0.0), residual(2, 0.0);
+    LcpWorkspace workspace = make_lcp_workspace(2);
+    for (int solve = 0; solve < 20; ++solve)  // long enough for the active set's inverse
+        ASSERT_TRUE(
+            solve_lcp({A.data(), 2, nullptr, 7}, r, candidates, lambda, residual, workspace).finished);
+    EXPECT_NEAR(lambda[0], 0.5, 1e-15);
+    A = {8, 1, 1, 4};
+    ASSERT_TRUE(solve_lcp({A.data(), 2, nullptr, 9}, r, candidates, lambda, residual, workspace).finished);
+    EXPECT_NEAR(lambda[0], 3.0 / 31, 1e-15);
+    EXPECT_NEAR(lambda[1], 7.0 / 31, 1e-15);
+    A = {1, 0, 0, 1};
+    ASSERT_TRUE(solve_lcp({A.data(), 2}, r, candidates, lambda, residual, workspace).finished);
+    EXPECT_NEAR(lambda[0], 1, 1e-15);
+    EXPECT_EQ(workspace.factored, 0U);
+}
+
 /// The Delassus operator of a string with contacts at the given places, all modes weighing the same, and gaps
 /// that close the more the nearer the middle of the string.
 Problem neck(std::size_t contacts, int modes, std::mt19937_64& random) {
