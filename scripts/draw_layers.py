@@ -28,7 +28,7 @@ PICTURE = ROOT / "docs" / "images" / "layers.svg"
 # What each layer holds, in a line.
 PURPOSE = {
     "engine/include": "public headers: descriptions, models, states, rendering",
-    "engine/src/base": "small arithmetic",
+    "engine/src/base": "assertions, small arithmetic",
     "engine/src/description": "functions of descriptions: modes, obstacles, parameters",
     "engine/src/string/model": "step coefficients of a mode; complementarity solver",
     "engine/src/string/kernels": "SIMD loops over modes",
@@ -42,7 +42,7 @@ PURPOSE = {
     "engine/src/instrument/voice": "one sounding note of a string; pickups, body",
     "engine/src/instrument/play": "events to strings; render_instrument()",
     "engine/src/instrument/compile": "compile_instrument()",
-    "host/base": "files, text, errors, interrupts",
+    "host/base": "files, text, errors, operating system",
     "host/formats/words": "names of enum values",
     "host/formats/json": "JSON with paths in errors",
     "host/formats/tuning": "Scala scales",

@@ -63,4 +63,6 @@ refuses(host/main.cpp "#include \"../engine/src/base/square.h\""
 refuses(engine/src/base/square.h "#include <instrument/voice/voice.h>"
   "engine/src/base/square.h: includes \"instrument/voice/voice.h\" upward")
 refuses(host/main.cpp "#include \"missing.h\"" "host/main.cpp: includes \"missing.h\", which is no file")
+# What the operating system alone has is in one file per system.
+refuses(host/player/recorder.cpp "#include <unistd.h>" "host/player/recorder.cpp: #include <unistd.h>; the operating system is")
 file(REMOVE_RECURSE ${WORK_DIR})
