@@ -73,19 +73,19 @@ def main():
     kernels = printed(folder / "kernel_benchmarks", "--benchmark_format=csv")
     path = pathlib.Path(__file__).resolve().parent.parent / "docs" / "benchmarks.md"
     page = path.read_text()
-    page = replace_tables(page, "on the same stretch. *Near frames* are those in which a contact might close.", blocks[0])
+    page = replace_tables(page, "over the same time. *Near frames* are those in which a contact might close.", blocks[0])
     page = replace_tables(
         page,
-        "CPU time with one skip switched off, relative to all on ([what each is](certificate.md); "
+        "CPU time with one skip switched off, relative to all on ([definitions](engine/certificate.md#glossary); "
         "`jawari simulate --no-skip` does the same):",
         blocks[1])
     page = replace_tables(page, "Scaling, each table relative to its first row:", "\n\n".join(blocks[2:]))
     page = replace_tables(
-        page, "frames: free motion of all modes through 64 steps in registers with p gap rates.", kernel_table(kernels))
+        page, "is the inner loop of near frames: free motion of all modes through 64 steps in registers with p gap rates.", kernel_table(kernels))
     page = replace_section(page, "| scene | sound (s) | rows | largest difference where uniform runs agree to 1e-9 | rows that disagree |\n"
                                  "|---|---|---|---|---|\n", exactness)
-    page = replace_section(page, "far more sensitive: there a quality's error is not its target.\n\n", resolution)
-    page = replace_section(page, "number into time.\n\n", held)
+    page = replace_section(page, "It is far more sensitive, and the error of a quality there exceeds its target.\n\n", resolution)
+    page = replace_section(page, "a host can use it to convert the model's number into time.\n\n", held)
     path.write_text(page)
 
 

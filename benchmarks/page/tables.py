@@ -59,7 +59,7 @@ def targets():
         cost = run["cost"] if run else math.inf
         how = f"{ours_text(run)}, {run['start']} start, error {percent(run['error'])}" if run else "none"
         table.append([percent(error), how, figure(cost), limit, "met" if cost <= limit else f"missed by {cost / limit:.1f}x"])
-    return markdown(["error", "cheapest run", "CPU s per s", "asked for", ""], table)
+    return markdown(["error", "cheapest run", "CPU s per s", "target (CPU s per s)", ""], table)
 
 
 def references():

@@ -35,8 +35,8 @@ def player(release_t60_s, dead_t60_s=0.04):
 def fretted():
     return {
         "name": "Fretted bass",
-        "comment": ["A four-string electric bass with 20 frets that its strings really strike.",
-                    "Velocity 30 stays clear of the frets on every string and fret, velocity 127 hits them hard."],
+        "comment": ["A four-string electric bass with 20 frets; the strings strike the frets.",
+                    "At velocity 30 no string touches a fret; at velocity 127 every string strikes them hard."],
         **quality(1000000, 80000), "studio": quality(2000000, 120000),
         "frets": sourced({"count": 20, "height_m": FRETTED_HEIGHTS}, height_m=JASA),
         "exciters": [plain_finger(0.16, 0.004, full_height_m="chosen: the published bass is lifted by 3.6 mm")],
@@ -61,8 +61,8 @@ def fretless():
     return {
         "name": "Fretless bass",
         "comment": ["The fretted bass without frets: a finger stops the string on the board, and in front of the finger the string grazes the "
-                    "board it rises from.",
-                    "Stops are at equal temperament; slides and vibrato go between them by retuning."],
+                    "board.",
+                    "Stops are at equal temperament; slides and vibrato reach the pitches between them by retuning."],
         **quality(500000, 20000), "studio": quality(1000000, 60000),
         "frets": {"count": FRETLESS_STOPS},
         "obstacles": [sourced({"name": "fingerboard", "origin": "nut", "side": "below", "profile_m": corners, "points": 64},

@@ -23,8 +23,8 @@ def sitar():
         "name": "Sitar",
         "comment": ["Kharaj-pancham stringing with C sharp as tonic. Baj (F sharp 3) and jor (C sharp 3) are stopped at semitones, the other "
                     "strings are open. No sympathetic strings: strings do not drive each other through the bridge yet.",
-                    "The bridge is a parabola that starts where the string does. A loud note wraps much of it, a dying one unrolls, and the "
-                    "partials that this feeds wander."],
+                    "The bridge is a parabola that starts at the end of the string. A loud note wraps over much of it; as the note decays the "
+                    "string unrolls, and the partials that this excites change."],
         **quality(400000, 22000), "studio": quality(1000000, 60000), "provenance": BODY,
         "frets": {"count": 0},
         "obstacles": [sourced({"name": "jawari bridge", "origin": "bridge", "side": "below",
@@ -45,8 +45,8 @@ def tanpura():
     return {
         "name": "Tanpura",
         "comment": ["Four open strings, Pa Sa Sa low Sa with C as tonic: keys 43, 48, 48 and 36. Note-off does not damp.",
-                    "A two-point bridge: the string ends at the back of the bridge, a cotton thread (jiva) 4 mm before that damps what is behind "
-                    "the crest, and the crest, 10 mm before the end, is just grazed."],
+                    "A two-point bridge. The string ends at the back of the bridge. A cotton thread (jiva), 4 mm before the end, damps the part "
+                    "behind the crest. The string just grazes the crest, 10 mm before the end."],
         **quality(300000, 20000), "studio": quality(1000000, 60000), "provenance": BODY,
         "frets": {"count": 0},
         "obstacles": [sourced({"name": "bridge", "origin": "bridge", "side": "below",
@@ -66,8 +66,8 @@ def biwa():
     return {
         "name": "Biwa",
         "comment": ["Satsuma biwa with silk strings G G c g. The sawari is the broad top of the nut and of each fret, shaved until the string "
-                    "grazes it: the same surface in front of whatever stops the string.",
-                    "Stops are at semitones: pitches that a player gets between the high frets by pressing are given speaking lengths."],
+                    "grazes it: the same surface in front of the nut or fret that stops the string.",
+                    "Stops are at semitones: each pitch that a player reaches between the high frets by pressing has its own speaking length."],
         **quality(400000, 20000), "studio": quality(1000000, 50000), "provenance": BODY,
         "frets": {"count": 12},
         "obstacles": [sourced({"name": "sawari", "origin": "stop", "side": "below",

@@ -49,9 +49,9 @@ def harpsichord():
                                         pan=pan_of(key, 29, 89, 0.4), excitation=rounded(length ** 0.6, 3)))
     return {
         "name": "Harpsichord",
-        "comment": ["One 8-foot choir of a French double after Taskin, F1 to F6, at A4 = 440 Hz. A quill lifts a string by what its force allows: "
-                    "velocity hardly matters. The jack's felt damps at note-off.",
-                    "Exciters are quills for groups of keys, because the plucking point wanders from 1/10 of the string in the bass to nearly 1/2."],
+        "comment": ["One 8-foot choir of a French double after Taskin, F1 to F6, at A4 = 440 Hz. The force of the quill limits "
+                    "the lift of the string, so velocity has little effect. The jack's felt damps at note-off.",
+                    "Exciters are quills for groups of keys, because the plucking point moves from 1/10 of the string in the bass to nearly 1/2."],
         **quality(192000, 22000),
         "provenance": {
             "strings": "published: c'' 354 mm (jackrail.space, Wrong scaling?: a copy of the Taskin of 1769 in Edinburgh); gauge numbers and metals of the "
@@ -81,7 +81,8 @@ def clavichord():
                                         pan=pan_of(key, 36, 86, 0.3), excitation=rounded((length / 0.49) ** 0.5, 3)))
     return {
         "name": "Clavichord",
-        "comment": ["One string per key, C2 to D6. The tangent strikes the string and stays: it is the string's end and excites by moving it. Pressing "
+        "comment": ["One string per key, C2 to D6. The tangent strikes the string and stays in contact: it is the end of the string and excites it by "
+                    "moving. Pressing "
                     "the key raises the pitch (Bebung: channel or key pressure).",
                     "After note-off the cloth beside the tangent damps the whole string."],
         **quality(192000, 20000),
@@ -118,7 +119,7 @@ def dulcimer():
             rows.append(row)
     return {
         "name": "Hammered dulcimer",
-        "comment": "Chromatic from D3 to D6, two strings a course, bare wooden hammers. There are no dampers: notes ring on after note-off.",
+        "comment": "Chromatic from D3 to D6, two strings per course, bare wooden hammers. There are no dampers: notes continue after note-off.",
         **quality(192000, 22000),
         "provenance": {
             "strings": "published: music wire gauges 8 to 5 upwards from C4, as in makers' lists (R. Davis, A Dulcimer Builder's Do-It-Yourself Guidebook, "
@@ -158,7 +159,7 @@ def prepared():
     chaigne = "published for C4 (Chaigne and Askenfelt, JASA 95 (1994) 1631)"
     return {
         "name": "Prepared piano",
-        "comment": ["Two octaves of a piano, C3 to C5, one string a key. Ten strings rattle in loose bolts, six are dulled by rubber wedges, the rest "
+        "comment": ["Two octaves of a piano, C3 to C5, one string per key. Ten strings rattle in loose bolts, rubber wedges damp six, the rest "
                     "are plain: C F G A# are bolts in both octaves, C# E G# rubber."],
         **quality(400000, 20000), "studio": quality(1000000, 50000),
         "provenance": {"strings": chaigne + ": length and density of C4. Chosen: the other keys around it, damping, pan. Inharmonicity: B of a steel "

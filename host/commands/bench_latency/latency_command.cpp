@@ -52,7 +52,7 @@ void add_bench_latency_command(CLI::App& app, Command& command) {
     bench
         ->add_option(
             "--preset", options->presets,
-            "Preset file or name, may be repeated; unless told the heaviest of those built in, and the "
+            "Preset file or name, may be repeated; default: the most expensive built-in one, and the "
             "steel-string guitar")
         ->type_name("PRESET")
         ->allow_extra_args(false);
@@ -64,27 +64,28 @@ void add_bench_latency_command(CLI::App& app, Command& command) {
                 for (const std::string& size : sizes)
                     options->frames.push_back(static_cast<std::size_t>(*parse_number(size)));
             },
-            "Frames of a block, may be repeated; 16, 32, 64 and 128 unless told")
+            "Frames per block, may be repeated; default 16, 32, 64 and 128")
         ->type_name("N")
         ->allow_extra_args(false)
         ->check(whole(1, most_block_frames));
     add_whole(*bench, "--blocks", options->blocks, 1, most_blocks,
-              "Blocks timed for each preset and size, over all passes; 1000000 unless told");
-    add_whole(*bench, "--passes", options->passes, 1, most_passes, "Identical passes; 7 unless told");
+              "Blocks timed for each preset and size, over all passes, default 1000000");
+    add_whole(*bench, "--passes", options->passes, 1, most_passes, "Identical passes, default 7");
     add_whole(*bench, "--rate", options->rate_hz, lowest_render_rate_hz, highest_render_rate_hz,
-              "Sampling rate, 48000 unless told");
-    add_whole(*bench, "--seed", options->seed, 0, largest_seed, "Of the playing; 1 unless told");
-    add_choice(*bench, "--quality", *quality, qualities, "live unless told");
-    bench->add_flag("--governor", options->governor,
-                    "Let quality drop under overload, as live; passes then differ from one another");
-    bench->add_option("--json", options->json, "Everything as JSON; - for standard output")
+              "Sampling rate, default 48000");
+    add_whole(*bench, "--seed", options->seed, 0, largest_seed, "Seed of the performance, default 1");
+    add_choice(*bench, "--quality", *quality, qualities, "Quality, default live");
+    bench->add_flag(
+        "--governor", options->governor,
+        "Lower the quality under overload, as in jawari play; passes then differ from one another");
+    bench->add_option("--json", options->json, "All results as JSON; - for standard output")
         ->type_name("FILE");
     bench->add_option("--csv", options->csv, "The table as CSV")->type_name("FILE");
     bench->add_option("--plot", options->plot, "Histograms: FILE.svg or FILE.png")->type_name("FILE");
     bench->footer(
         "Plays as hard as MIDI allows: struck chords, runs, bends, palm mutes, legato "
         "(docs/player/player.md).\n"
-        "The minimum of a block over identical passes leaves the machine's scheduler out.\n\n"
+        "The minimum of a block over identical passes excludes the influence of the scheduler.\n\n"
         "Example: jawari bench-latency --preset guitar-steel --frames 64 --blocks 70000 --plot latency.png");
     bench->callback([options, quality, &command] {
         if (*quality) options->quality = **quality;

@@ -66,7 +66,8 @@ MaybeError show_info(const InfoOptions& options) {
 
 std::string folders_text() {
     std::string text =
-        "A preset is looked for as a file, then in these folders as NAME.json, then among those built in:\n";
+        "The program looks for a preset as a file, then in these folders as NAME.json, then among the "
+        "built-in ones:\n";
     for (const PresetFolder& folder : preset_folders()) text += "  " + printable(folder.path) + "\n";
     return text + "\nThe number is the preset's program in bank 1 (docs/formats/midi.md).";
 }
@@ -83,12 +84,12 @@ void add_presets_command(CLI::App& app, Command& command) {
 
 void add_info_command(CLI::App& app, Command& command) {
     CLI::App* info_app = app.add_subcommand(
-        "info", "Says what an instrument is: strings, frets, modes, articulations, cost, parameters");
+        "info", "Describes an instrument: strings, frets, modes, articulations, cost, parameters");
     const auto options = std::make_shared<InfoOptions>();
     info_app->add_option("preset", options->preset, "Preset file or name")->required()->type_name("PRESET");
     info_app->add_flag("--json", options->json, "As JSON");
-    add_choice(*info_app, "--quality", options->quality, qualities, "live unless told");
-    info_app->add_option("--rate", options->rate_hz, "Output rate that it is compiled for, 48000 unless told")
+    add_choice(*info_app, "--quality", options->quality, qualities, "Quality, default live");
+    info_app->add_option("--rate", options->rate_hz, "Output rate that it is compiled for, default 48000")
         ->type_name("HZ")
         ->check(number_between(lowest_render_rate_hz, highest_render_rate_hz));
     info_app->footer("Compiles the instrument and plays all its strings for a second to measure their cost.");

@@ -26,14 +26,14 @@ std::string footer() {
     std::vector<std::string> verbs;
     for (const Verb& verb : verb_table()) verbs.emplace_back(verb.name);
     return "auto tries " + join(audio_systems()) + " for audio and " + join(midi_systems()) +
-           " for MIDI, in this order, and says what it took.\n"
-           "On a terminal a shell takes commands while you play: " +
+           " for MIDI, in this order, and reports its choice.\n"
+           "On a terminal a shell reads commands while you play: " +
            join(verbs) +
            ".\n"
-           "help explains them; they may come through a pipe as well, and with --osc-port as OSC messages.\n"
+           "help explains them; they may also come through a pipe, and with --osc-port as OSC messages.\n"
            "Options can be kept in " +
            (default_config_path().empty() ? "a file (--config)" : printable(default_config_path())) +
-           " (docs/commands/play.md); the command line has the last word.\n\n"
+           " (docs/commands/play.md); the command line overrides them.\n\n"
            "Examples:\n"
            "  jawari play\n"
            "  jawari play --preset bass-fretted --midi-in keystation --record take.wav\n"
@@ -71,21 +71,21 @@ const std::map<std::string, std::string> audio_words = system_words(audio_system
 const std::map<std::string, std::string> midi_words = system_words(midi_system_words());
 
 void add_device_options(CLI::App& app, PlayOptions& options) {
-    add_choice(app, "--audio", options.audio, audio_words, "Audio system; auto unless told");
+    add_choice(app, "--audio", options.audio, audio_words, "Audio system, default auto");
     app.add_option("--audio-device", options.audio_device, "Number, or part of its name (jawari devices)")
         ->type_name("NAME|INDEX")
         ->check(some_name());
-    add_choice(app, "--midi", options.midi, midi_words, "MIDI system; auto unless told");
+    add_choice(app, "--midi", options.midi, midi_words, "MIDI system, default auto");
     app.add_option("--midi-in", options.midi_in,
                    "Input: number, part of its name, virtual (a port for others to connect to), or auto: all "
                    "inputs, and a virtual one")
         ->type_name("NAME|INDEX|virtual|auto")
         ->check(some_name());
     add_whole(app, "--rate", options.rate_hz, lowest_render_rate_hz, highest_render_rate_hz, " of hertz",
-              "Sampling rate, 48000 unless told; the device may have its own")
+              "Sampling rate, default 48000; the device may require another")
         ->type_name("HZ");
     add_whole(app, "--frames", options.frames, lowest_play_frames, highest_play_frames, "",
-              "Frames of a block, 128 unless told; the device may have its own")
+              "Frames per block, default 128; the device may require another")
         ->type_name("N");
     add_flag(app, "--no-retry", options.retry, false, "End with exit code 6 when the device is lost");
     add_flag(app, "--lock-memory", options.lock_memory, true,
@@ -94,18 +94,18 @@ void add_device_options(CLI::App& app, PlayOptions& options) {
 
 void add_sound_options(CLI::App& app, PlayOptions& options) {
     app.add_option("--preset", options.preset,
-                   "Preset file or name; auto unless told: guitar-steel, then what program changes say")
+                   "Preset file or name, default auto: guitar-steel, then as program changes select")
         ->type_name("PRESET|auto")
         ->check(some_name());
     add_choice(app, "--quality", options.quality, qualities,
-               "How finely strings are computed: live (as the preset says) unless told");
+               "Resolution of the strings, default live (the values of the preset)");
     add_flag(app, "--fixed-quality", options.fixed_quality, true,
              "Never lower the quality under load: late blocks are then heard as gaps");
-    app.add_option("--gain", options.gain_db, "Louder or softer than the preset says, -120 to 60 dB")
+    app.add_option("--gain", options.gain_db, "Gain relative to the preset, -120 to 60 dB")
         ->type_name("DB")
         ->check(number_between(-120, 60));
     app.add_option("--limiter", options.limiter_dbfs,
-                   "Keeps the sound below this level, -40 to 0, and makes it 2 ms later; off unless told")
+                   "Keeps the sound below this level, -40 to 0, with a delay of 2 ms; default off")
         ->type_name("DBFS")
         ->check(number_between(-40, 0));
     add_parameter_settings(app, options.parameters);
@@ -115,13 +115,13 @@ void add_sound_options(CLI::App& app, PlayOptions& options) {
     app.add_option("--keyboard-map", options.keyboard_map, "Scala keyboard map of the scale")
         ->type_name("FILE.kbm")
         ->check(some_name());
-    add_flag(app, "--move-frets", options.move_frets, true, "Frets move to where the tuning has its notes");
-    app.add_option("--midi-map", options.midi_map, "Controllers of parameters (docs/formats/midi.md)")
+    add_flag(app, "--move-frets", options.move_frets, true, "Move the frets to the notes of the tuning");
+    app.add_option("--midi-map", options.midi_map, "Assigns controllers to parameters (docs/formats/midi.md)")
         ->type_name("FILE.json")
         ->check(some_name());
-    add_whole(
-        app, "--guitar-mode", options.guitar_channel, 1, 16, "",
-        "One string a channel: this channel plays the last string of the preset, the next the one before")
+    add_whole(app, "--guitar-mode", options.guitar_channel, 1, 16, "",
+              "One string per channel: this channel plays the last string of the preset, the next channel "
+              "the one before")
         ->type_name("CHANNEL");
 }
 
@@ -136,16 +136,16 @@ void add_control_options(CLI::App& app, PlayOptions& options) {
         ->check(some_name());
     app.add_flag("--force", options.overwrite, "Recordings may overwrite files");
     add_flag(app, "--no-shell", options.shell, false,
-             "Take no commands, run until a signal comes: for services");
+             "Read no commands, run until a signal arrives: for services");
     add_flag(app, "--monitor", options.monitor, true, "Print every MIDI message in words");
     add_whole(app, "--osc-port", options.osc_port, 1, 65535, "",
-              "Take commands as OSC messages on this UDP port")
+              "Accept commands as OSC messages on this UDP port")
         ->type_name("PORT");
     app.add_option("--osc-host", options.osc_host,
-                   "Address on which OSC is taken, 127.0.0.1 (this machine alone) unless told")
+                   "Address on which OSC is accepted, default 127.0.0.1 (this machine alone)")
         ->type_name("ADDRESS")
         ->check(some_name());
-    app.add_option("--config", options.config, "Configuration file instead of the user's own")
+    app.add_option("--config", options.config, "Configuration file instead of the user's default file")
         ->type_name("FILE.json")
         ->check(some_name());
 }

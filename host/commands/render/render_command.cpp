@@ -27,10 +27,9 @@ std::string footer() {
            "(docs/formats/preset.md) or\na name: " +
            join(names) +
            ".\n"
-           "With auto each channel is an instrument of its own, which the channel's programs choose "
-           "(docs/formats/midi.md); with a preset\nall channels play one instrument. Notes outside its range "
-           "are "
-           "ignored and counted.\n\n"
+           "With auto each channel plays its own instrument, which the channel's program changes select "
+           "(docs/formats/midi.md);\nwith a preset all channels play one instrument. Notes outside its range "
+           "are ignored and counted.\n\n"
            "Examples:\n"
            "  jawari render song.mid -o song.wav\n"
            "  jawari render song.mid --preset bass-fretted -o song.wav --plot song.png\n"
@@ -67,10 +66,10 @@ void add_sound_options(CLI::App& app, RenderOptions& options) {
            [&options](const std::string& text) {
                options.rate_hz = static_cast<std::uint32_t>(*parse_number(text));
            },
-           "Sampling rate of the WAV file, 48000 unless told")
+           "Sampling rate of the WAV file, default 48000")
         ->type_name("HZ")
         ->check(whole_between(lowest_render_rate_hz, highest_render_rate_hz, " of hertz"));
-    add_choice(app, "--format", options.format, formats, "Samples of the WAV file, pcm24 unless told");
+    add_choice(app, "--format", options.format, formats, "Sample format of the WAV file, default pcm24");
     app.add_option_function<std::string>(
            "--tail",
            [&options](const std::string& text) {
@@ -80,19 +79,18 @@ void add_sound_options(CLI::App& app, RenderOptions& options) {
                shortest(silence_s) + " s, at most " + shortest(automatic_tail_limit_s) + " s")
         ->type_name("S|auto")
         ->check(tail());
-    app.add_option("--silence", options.silence_dbfs,
-                   "What is inaudible to --tail auto, -90 dBFS unless told")
+    app.add_option("--silence", options.silence_dbfs, "Level below which --tail auto ends, default -90 dBFS")
         ->type_name("DBFS")
         ->check(number_between(-180, -20));
-    app.add_option("--gain", options.gain_db, "Louder or softer than the preset says, -120 to 60 dB")
+    app.add_option("--gain", options.gain_db, "Gain relative to the preset, -120 to 60 dB")
         ->type_name("DB")
         ->check(number_between(-120, 60));
     app.add_option("--limiter", options.limiter_dbfs,
-                   "Keeps the mix below this level, -40 to 0; off unless told, says when it acts")
+                   "Keeps the mix below this level, -40 to 0, and reports when it acts; default off")
         ->type_name("DBFS")
         ->check(number_between(-40, 0));
     add_choice(app, "--quality", options.quality, qualities,
-               "How finely strings are computed: live (as the preset says) unless told");
+               "Resolution of the strings, default live (the values of the preset)");
 }
 
 void add_music_options(CLI::App& app, RenderOptions& options) {
@@ -103,8 +101,8 @@ void add_music_options(CLI::App& app, RenderOptions& options) {
     app.add_option("--keyboard-map", options.keyboard_map, "Scala keyboard map of the scale")
         ->type_name("FILE.kbm")
         ->check(some_name());
-    app.add_flag("--move-frets", options.move_frets, "Frets move to where the tuning has its notes");
-    app.add_option("--midi-map", options.midi_map, "Controllers of parameters (docs/formats/midi.md)")
+    app.add_flag("--move-frets", options.move_frets, "Move the frets to the notes of the tuning");
+    app.add_option("--midi-map", options.midi_map, "Assigns controllers to parameters (docs/formats/midi.md)")
         ->type_name("FILE.json")
         ->check(some_name());
     app.add_option_function<std::string>(
@@ -112,7 +110,8 @@ void add_music_options(CLI::App& app, RenderOptions& options) {
            [&options](const std::string& text) {
                options.guitar_channel = static_cast<int>(*parse_number(text));
            },
-           "One string a channel: this channel plays the last string of the preset, the next the one before")
+           "One string per channel: this channel plays the last string of the preset, the next channel the "
+           "one before")
         ->type_name("CHANNEL")
         ->check(whole_between(1, 16, ""));
     app.add_option_function<std::string>(
@@ -120,7 +119,7 @@ void add_music_options(CLI::App& app, RenderOptions& options) {
            [&options](const std::string& text) {
                options.seed = static_cast<std::uint64_t>(*parse_number(text));
            },
-           "Small irregularities of times and velocities, the same for the same number; none unless told")
+           "Small irregularities of times and velocities, reproducible for the same number; default none")
         ->type_name("N")
         ->check(whole_between(0, 9007199254740991, ""));
 }
@@ -132,7 +131,7 @@ void add_output_options(CLI::App& app, RenderOptions& options) {
         ->type_name("FILE.wav")
         ->check(some_name());
     app.add_option("--stems", options.stems,
-                   "The strings apart: a channel each in one WAV file, or with FOLDER/ a file each")
+                   "Each string separately: one channel each in one WAV file, or with FOLDER/ one file each")
         ->type_name("FILE.wav|FOLDER/")
         ->check(some_name());
     app.add_option("--stats", options.stats, "Statistics as JSON; - for standard output")
@@ -144,7 +143,7 @@ void add_output_options(CLI::App& app, RenderOptions& options) {
     app.add_option_function<std::string>(
            "--jobs",
            [&options](const std::string& text) { options.jobs = static_cast<unsigned>(*parse_number(text)); },
-           "Files rendered at the same time, one a processor unless told")
+           "Number of files rendered at the same time, default one per processor")
         ->type_name("N")
         ->check(whole_between(1, 256, ""));
 }
@@ -157,7 +156,7 @@ void add_render_command(CLI::App& app, Command& command) {
     render_app->add_option("midi", options->midi, "Standard MIDI files; - for standard input")
         ->required()
         ->type_name("MIDI...");
-    render_app->add_option("--preset", options->preset, "Preset file or name; auto unless told")
+    render_app->add_option("--preset", options->preset, "Preset file or name, default auto")
         ->type_name("PRESET|auto")
         ->check(some_name());
     add_output_options(*render_app, *options);
