@@ -1,5 +1,6 @@
-# Run by ctest: the library as a folder of another project (parent/), which checks that nothing is set for it. The second
-# way is configured alone; it has what would do harm if it leaked. One lane per vector: a tenth of the time to compile.
+# Run by ctest: the library as a folder of another project (parent/), which checks that nothing is set for it. All ways
+# but the last are configured alone; the first has what would do harm if it leaked. One lane per vector: a tenth of the time to
+# compile.
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
@@ -19,6 +20,7 @@ endfunction()
 
 configure_parent(${WORK_DIR}/fetched -D FETCH=ON -D JAWARI_SANITIZE=undefined -D JAWARI_WARNINGS_AS_ERRORS=ON
                  -D CMAKE_DISABLE_FIND_PACKAGE_hwy=ON)
+configure_parent(${WORK_DIR}/own_highway -D OWN_HIGHWAY=ON)
 set(EXPECTED_OPTIONS " -ffast-math")  # the library compiles all the same, with its own arithmetic
 configure_parent(${WORK_DIR}/added -D CMAKE_CXX_FLAGS=-ffast-math)
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/added)

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
@@ -22,6 +23,16 @@ std::string content(int file) {
     std::array<char, 64> bytes{};
     const auto count = read_some_at(file, 0, bytes);
     return {bytes.data(), static_cast<std::size_t>(std::max<std::ptrdiff_t>(count, 0))};
+}
+
+/// At the first port from the given one on that nobody has.
+int open_free_port(NetworkAddress& address) {
+    int opened = -1;
+    for (int tries = 0; opened < 0 && tries < 1000; ++tries) {
+        if (tries > 0) ++address.port;
+        opened = open_datagram_socket(address);
+    }
+    return opened;
 }
 
 TEST(Platform, TemporaryFilesAreNewAndTheirOwnersAlone) {
@@ -70,7 +81,10 @@ TEST(Platform, TellsKindsOfFilesApart) {
     EXPECT_EQ(file_facts("/dev/null")->kind, FileKind::Device);
     ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
     EXPECT_EQ(file_facts(folder.file("pipe"))->kind, FileKind::Pipe);
-    EXPECT_FALSE(is_terminal(open_to_read(folder.file("file"))));
+    const int file = open_to_read(folder.file("file"));
+    EXPECT_FALSE(is_terminal(file));
+    EXPECT_FALSE(terminal_columns(file));
+    close_file(file);
 }
 
 TEST(Platform, WritingAtAnOffsetAndRedirecting) {
@@ -132,8 +146,8 @@ TEST(Platform, DatagramsTellTheirSender) {
     EXPECT_EQ(host_address("127.0.0.1"), 0x7F000001U);
     EXPECT_FALSE(host_address("127.0.0.256"));
     EXPECT_FALSE(host_address("localhost"));
-    const NetworkAddress here{0x7F000001, 57131}, there{0x7F000001, 57132};
-    const int one = open_datagram_socket(here), two = open_datagram_socket(there);
+    NetworkAddress here{0x7F000001, 20000}, there{0x7F000001, 25000};
+    const int one = open_free_port(here), two = open_free_port(there);
     ASSERT_GE(one, 0);
     ASSERT_GE(two, 0);
     EXPECT_LT(open_datagram_socket(here), 0);
