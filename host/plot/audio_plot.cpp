@@ -7,7 +7,6 @@
 
 #include "plot/figure.h"
 #include "plot/gnuplot.h"
-#include "plot/spectrogram.h"
 
 namespace jawari::host {
 namespace {
@@ -78,8 +77,8 @@ std::string frequency_tics(double lowest_hz, double highest_hz) {
     return "set ytics (" + tics + ")\n";
 }
 
-std::string spectrogram_panel(std::span<const float> samples, double rate_hz, double duration_s) {
-    const SpectrogramGrid grid;
+std::string spectrogram_panel(std::span<const float> samples, double rate_hz, double duration_s,
+                              const SpectrogramGrid& grid) {
     const Spectrogram picture = spectrogram(samples, rate_hz, grid);
     double loudest = grid.floor_db;
     for (const double level : picture.level_db) loudest = std::max(loudest, level);
@@ -111,12 +110,12 @@ std::string spectrogram_panel(std::span<const float> samples, double rate_hz, do
 }  // namespace
 
 MaybeError plot_audio(std::span<const float> samples, double rate_hz, const std::string& title,
-                      const std::string& path) {
+                      const std::string& path, const SpectrogramGrid& grid) {
     const double duration_s = std::max(static_cast<double>(samples.size()), 1.0) / rate_hz;
     std::string script = "set multiplot title " + quote(title) + " font ',16' offset 0,0.1\n";
     script += common_style() + panel(482, 622).place() + waveform_panel(samples, rate_hz, duration_s);
-    script +=
-        "reset\n" + common_style() + panel(62, 394).place() + spectrogram_panel(samples, rate_hz, duration_s);
+    script += "reset\n" + common_style() + panel(62, 394).place() +
+              spectrogram_panel(samples, rate_hz, duration_s, grid);
     return draw(path, width_px, height_px, script + "unset multiplot\n");
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "falling_mass.h"
+#include "support/test_names.h"
 
 namespace jawari::rivals {
 namespace {
@@ -51,7 +52,12 @@ TEST_P(Quadratised, PenetratesAsDeepAsTheContinuousCollision) {
 
 INSTANTIATE_TEST_SUITE_P(Exponents, Quadratised,
                          testing::Combine(testing::Values(Auxiliary::PerContact, Auxiliary::Shared),
-                                          testing::Values(1.0, 1.5, 2.3)));
+                                          testing::Values(1.0, 1.5, 2.3)),
+                         [](const auto& parameters) {
+                             const bool own = std::get<0>(parameters.param) == Auxiliary::PerContact;
+                             return (own ? "PerContact_" : "Shared_") +
+                                    test::name_of_number(std::get<1>(parameters.param));
+                         });
 
 // Two contacts that share the string's inertia: the linear system is solved, whatever the coupling.
 TEST(Quadratised, CoupledContactsSatisfyTheirEquations) {

@@ -24,7 +24,9 @@ TEST_P(Laws, OnlyNewtonGainsEnergyFromItsImpacts) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, Laws, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(Modes, Laws, testing::Bool(), [](const auto& of_tables) {
+    return of_tables.param ? "FromTables" : "FromPhysics";
+});
 
 #if defined(__OPTIMIZE__) && !defined(JAWARI_SANITIZED)
 TEST(NewtonsLaw, GainsEnergyOnSomeStrings) {

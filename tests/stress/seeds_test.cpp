@@ -31,7 +31,8 @@ TEST_P(Seeds, KeepEveryInvariant) {
     EXPECT_GT(impulses, 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ranges, Seeds, testing::Range<std::uint64_t>(0, 6));
+INSTANTIATE_TEST_SUITE_P(Ranges, Seeds, testing::Range<std::uint64_t>(0, 6),
+                         [](const auto& range) { return "From" + std::to_string(1000 * range.param); });
 
 TEST(Seeds, PlayTheSameWhenPlayedAgain) {
     const PresetShelf shelf = factory_presets();

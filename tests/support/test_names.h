@@ -26,7 +26,7 @@ inline std::string name_of_number(double value) {
     return (std::signbit(value) && !std::isnan(value) ? "minus_" : "") + as_test_name(digits);
 }
 
-/// Numbers, text, tuples of what has a name, and every type with a function `name_of`.
+/// Numbers, text, tuples of what has a name, and every type with a function `name_of` in its own namespace.
 struct Named {
     template <class Parameter>
     std::string operator()(const testing::TestParamInfo<Parameter>& info) const {

@@ -11,7 +11,10 @@
 
 namespace jawari::test {
 
-inline constexpr std::size_t injury_kinds = 12;
+inline constexpr std::array<const char*, 12> injury_names{
+    "Displacement", "Velocity",   "Gap",           "Impulse",         "Height",       "Level",
+    "Mix",          "BendTarget", "BendSemitones", "ExciterPosition", "TouchDamping", "TouchShare"};
+inline constexpr std::size_t injury_kinds = injury_names.size();
 
 /// `what` and `where` choose the number. Nothing happens to a string without a motion.
 inline void injure(InstrumentStringState& string, std::size_t what, std::size_t where) {

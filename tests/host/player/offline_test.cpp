@@ -9,6 +9,7 @@
 #include "commands/render/score.h"
 #include "player/player.h"
 #include "support/live_stage.h"
+#include "support/test_names.h"
 
 namespace jawari::host {
 namespace {
@@ -96,7 +97,7 @@ TEST_P(LiveEqualsOffline, BitForBitAtRandomBlockSizes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Presets, LiveEqualsOffline,
-                         testing::Values("guitar-steel", "bass-fretted", "sitar", "clavichord"));
+                         testing::Values("guitar-steel", "bass-fretted", "sitar", "clavichord"), test::named);
 
 TEST(LivePlayer, ARecordingBegunLaterReproducesToo) {
     const SharedInstrument instrument = small_live_instrument("guitar-steel");

@@ -43,7 +43,7 @@ void follow_controls(const InstrumentModel& model, InstrumentState& state) JAWAR
         }
         if (string.sounding == no_voice) continue;
         Voice& sounding = string.voices[string.sounding];
-        const ChannelState& controls = channel_of(state, sounding.channel);
+        const ChannelState& controls = state.channels[static_cast<std::size_t>(sounding.channel)];
         press_palm(model, string_of(model, state, s), sounding, parameter_of(controls, ParameterId::PalmMute),
                    parameter_of(controls, ParameterId::PalmPosition));
         follow_bend(model, state, s, sounding);

@@ -96,7 +96,8 @@ TEST_P(InstrumentNonFinite, StaysOnItsStringIsCountedAndEndsWithTheNextNote) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryKind, InstrumentNonFinite, testing::Range(std::size_t{0}, test::injury_kinds));
+INSTANTIATE_TEST_SUITE_P(EveryKind, InstrumentNonFinite, testing::Range(std::size_t{0}, test::injury_kinds),
+                         [](const auto& kind) { return std::string(test::injury_names[kind.param]); });
 
 TEST(InstrumentNonFinite, EventsWithNoNumbersAreIgnored) {
     InstrumentState expected = in_the_middle();

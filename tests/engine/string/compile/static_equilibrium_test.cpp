@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "support/scenes.h"
+#include "support/test_names.h"
 
 namespace jawari {
 namespace {
@@ -131,7 +132,8 @@ TEST_P(Resting, StringHeldByFretsStaysAtRest) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, Resting, testing::Values(ImpactLaw::Signorini, ImpactLaw::PaoliSchatzman));
+INSTANTIATE_TEST_SUITE_P(Laws, Resting, testing::Values(ImpactLaw::Signorini, ImpactLaw::PaoliSchatzman),
+                         test::named);
 
 TEST(StaticEquilibrium, FreeStringsAreNotTouched) {
     SceneDescription scene = flexible_string(50, 48000);
@@ -166,8 +168,8 @@ TEST_P(HeldPluck, IsLiftedClearOfObstaclesAndGainsNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, HeldPluck,
-                         testing::Values(ImpactLaw::Passive, ImpactLaw::PaoliSchatzman,
-                                         ImpactLaw::Signorini));
+                         testing::Values(ImpactLaw::Passive, ImpactLaw::PaoliSchatzman, ImpactLaw::Signorini),
+                         test::named);
 
 TEST(StaticEquilibrium, ObstaclesThatContradictOneAnotherAreRefused) {
     SceneDescription scene = flexible_string(50, 48000);

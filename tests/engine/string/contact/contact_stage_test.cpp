@@ -177,7 +177,8 @@ TEST_P(MovingObstacle, LiftsTheStringWithTheWorkOfStatics) {
     EXPECT_LE(lifted.worst_jump, 2e-7);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sides, MovingObstacle, testing::Values(Side::Below, Side::Above));
+INSTANTIATE_TEST_SUITE_P(Sides, MovingObstacle, testing::Values(Side::Below, Side::Above),
+                         [](const auto& side) { return side.param == Side::Below ? "Below" : "Above"; });
 
 TEST(Contact, WorkOfAFastObstacleIsMetered) {
     for (const double seconds : {1e-5, 1e-3, 0.02}) {

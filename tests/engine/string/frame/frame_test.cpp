@@ -7,6 +7,7 @@
 
 #include "support/agreement.h"
 #include "support/scenes.h"
+#include "support/test_names.h"
 
 namespace jawari {
 namespace {
@@ -104,7 +105,8 @@ TEST_P(SkippingOfLaw, AgreesWithEachSkipAlone) {
 
 INSTANTIATE_TEST_SUITE_P(Laws, SkippingOfLaw,
                          testing::Values(ImpactLaw::Newton, ImpactLaw::Passive, ImpactLaw::Signorini,
-                                         ImpactLaw::PaoliSchatzman));
+                                         ImpactLaw::PaoliSchatzman),
+                         test::named);
 
 /// A string excited by a force, as instruments excite it, over frets.
 std::vector<double> played(const StringModel& model, const Skipping& skipping, std::size_t frames,

@@ -9,6 +9,7 @@
 
 #include "string/frame/frame.h"
 #include "support/scenes.h"
+#include "support/test_names.h"
 
 namespace jawari {
 namespace {
@@ -59,7 +60,8 @@ TEST_P(StateOfLaw, ResetPlaysTheSameBitsAgain) {
 
 INSTANTIATE_TEST_SUITE_P(Laws, StateOfLaw,
                          testing::Values(ImpactLaw::Newton, ImpactLaw::Passive, ImpactLaw::Signorini,
-                                         ImpactLaw::PaoliSchatzman));
+                                         ImpactLaw::PaoliSchatzman),
+                         test::named);
 
 TEST(State, StartsAtTheModelsInitialStateWithNothingCounted) {
     const SceneModel model = random_model(9, ImpactLaw::Signorini);

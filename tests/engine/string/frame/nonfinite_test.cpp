@@ -9,6 +9,7 @@
 
 #include "jawari/jawari.h"
 #include "support/scenes.h"
+#include "support/test_names.h"
 
 namespace jawari {
 namespace {
@@ -100,9 +101,11 @@ constexpr ImpactLaw all_laws[] = {ImpactLaw::Newton, ImpactLaw::Passive, ImpactL
                                   ImpactLaw::PaoliSchatzman};
 
 INSTANTIATE_TEST_SUITE_P(NaN, NonFinite,
-                         testing::Combine(testing::ValuesIn(all_laws), testing::Values(std::nan(""))));
+                         testing::Combine(testing::ValuesIn(all_laws), testing::Values(std::nan(""))),
+                         test::named);
 INSTANTIATE_TEST_SUITE_P(Infinity, NonFinite,
-                         testing::Combine(testing::ValuesIn(all_laws), testing::Values(HUGE_VAL, -HUGE_VAL)));
+                         testing::Combine(testing::ValuesIn(all_laws), testing::Values(HUGE_VAL, -HUGE_VAL)),
+                         test::named);
 
 }  // namespace
 }  // namespace jawari

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "support/scenes.h"
+#include "support/test_names.h"
 
 namespace jawari {
 namespace {
@@ -56,7 +57,8 @@ TEST_P(BlockSize, DoesNotChangeABit) {
 
 INSTANTIATE_TEST_SUITE_P(Laws, BlockSize,
                          testing::Values(ImpactLaw::Newton, ImpactLaw::Passive, ImpactLaw::Signorini,
-                                         ImpactLaw::PaoliSchatzman));
+                                         ImpactLaw::PaoliSchatzman),
+                         test::named);
 
 /// A string of a fretted instrument at live quality that is pressed down, lies on its frets, rings, fades
 /// within a few hundred frames or rests.

@@ -10,6 +10,7 @@
 
 #include "jawari/jawari.h"
 #include "support/scenes.h"
+#include "support/test_names.h"
 
 namespace jawari {
 namespace {
@@ -34,6 +35,10 @@ struct LawAndRestitution {
     double restitution;
     double effective;  ///< what the law converges to
 };
+
+std::string name_of(const LawAndRestitution& parameter) {
+    return std::string(name_of(parameter.law)) + "_e_" + test::name_of_number(parameter.restitution);
+}
 
 class OneImpact : public testing::TestWithParam<LawAndRestitution> {};
 
@@ -74,7 +79,8 @@ INSTANTIATE_TEST_SUITE_P(Laws, OneImpact,
                                          LawAndRestitution{ImpactLaw::Signorini, 0, 0},
                                          LawAndRestitution{ImpactLaw::Signorini, 0.9, 0},
                                          LawAndRestitution{ImpactLaw::PaoliSchatzman, 0, 0},
-                                         LawAndRestitution{ImpactLaw::PaoliSchatzman, 0.5, 0.5}));
+                                         LawAndRestitution{ImpactLaw::PaoliSchatzman, 0.5, 0.5}),
+                         test::named);
 
 TEST(Step, NewtonReturnsTheShareOfTheApproachThatItPromises) {
     for (const double e : {0.0, 0.25, 0.9, 1.0}) {
@@ -149,7 +155,7 @@ TEST_P(ThetaScheme, EnergyBalanceCloses) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Thetas, ThetaScheme, testing::Values(0.5, 0.75, 1.0));
+INSTANTIATE_TEST_SUITE_P(Thetas, ThetaScheme, testing::Values(0.5, 0.75, 1.0), test::named);
 
 TEST(Step, ThetaOneHalfWithoutLossesKeepsEnergy) {
     // Free, and against frets with e = 1: v+ = -v at the contacts' midpoint velocity zero does no work.

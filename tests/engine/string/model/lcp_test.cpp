@@ -2,6 +2,7 @@
 // themselves (necessary and sufficient for a semidefinite A), and against its promises: bounded, never
 // negative, never NaN.
 #include "jawari/detail/lcp.h"
+#include "support/test_names.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -90,6 +91,12 @@ std::optional<LongVector> by_enumeration(const Problem& problem, long double tol
 }
 
 enum class Family { Definite, RankDeficient, Coincident, NearlyCoincident, BadlyScaled, IllConditioned };
+
+const char* name_of(Family family) {
+    constexpr const char* names[] = {"Definite",         "RankDeficient", "Coincident",
+                                     "NearlyCoincident", "BadlyScaled",   "IllConditioned"};
+    return names[static_cast<int>(family)];
+}
 
 struct RandomProblem {
     std::mt19937_64 random;
@@ -209,7 +216,8 @@ TEST_P(LcpFamily, MeetsTheOptimalityConditionsAndReportsTheirResidual) {
 INSTANTIATE_TEST_SUITE_P(Families, LcpFamily,
                          testing::Values(Family::Definite, Family::RankDeficient, Family::Coincident,
                                          Family::NearlyCoincident, Family::BadlyScaled,
-                                         Family::IllConditioned));
+                                         Family::IllConditioned),
+                         test::named);
 
 TEST(Lcp, FinishesExactlyWhenTheProblemHasASolution) {
     // What Lemke's method guarantees for semidefinite A: a solution, or proof that none exists.

@@ -8,6 +8,7 @@
 #include <complex>
 
 #include "support/scenes.h"
+#include "support/test_names.h"
 
 namespace jawari {
 namespace {
@@ -69,7 +70,8 @@ TEST_P(EnergyOfLaw, BalanceClosesAtEveryStepOfRandomScenes) {
 
 INSTANTIATE_TEST_SUITE_P(Laws, EnergyOfLaw,
                          testing::Values(ImpactLaw::Newton, ImpactLaw::Passive, ImpactLaw::Signorini,
-                                         ImpactLaw::PaoliSchatzman));
+                                         ImpactLaw::PaoliSchatzman),
+                         test::named);
 
 class PassiveLaw : public testing::TestWithParam<ImpactLaw> {};
 
@@ -82,8 +84,8 @@ TEST_P(PassiveLaw, EnergyNeverRises) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, PassiveLaw,
-                         testing::Values(ImpactLaw::Passive, ImpactLaw::Signorini,
-                                         ImpactLaw::PaoliSchatzman));
+                         testing::Values(ImpactLaw::Passive, ImpactLaw::Signorini, ImpactLaw::PaoliSchatzman),
+                         test::named);
 
 TEST(Energy, NewtonWithoutRestitutionLossKeepsItConstant) {
     // e = 1 and no damping: y+ = y_before wherever an impulse acts, so that no impulse works.
@@ -151,8 +153,8 @@ TEST_P(TruncatedLaw, TruncatedSolvesStayPassiveAndAreCounted) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, TruncatedLaw,
-                         testing::Values(ImpactLaw::Passive, ImpactLaw::PaoliSchatzman,
-                                         ImpactLaw::Signorini));
+                         testing::Values(ImpactLaw::Passive, ImpactLaw::PaoliSchatzman, ImpactLaw::Signorini),
+                         test::named);
 
 TEST(Energy, MetersAddUpToTheChangeOfEnergy) {
     test::RandomScene random(5);

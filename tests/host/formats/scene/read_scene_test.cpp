@@ -7,6 +7,7 @@
 #include "jawari/scene/compile.h"
 #include "support/scene_text.h"
 #include "support/temporary_folder.h"
+#include "support/test_names.h"
 
 namespace jawari::host {
 namespace {
@@ -178,6 +179,12 @@ struct Wrong {
     const char* message;
 };
 
+/// The place that is refused.
+std::string name_of(const Wrong& wrong) {
+    const std::string_view message = wrong.message;
+    return test::as_test_name(std::string(message.substr(0, message.find(':'))));
+}
+
 class WrongScene : public testing::TestWithParam<Wrong> {};
 
 TEST_P(WrongScene, IsRefusedWithPathValueAndRange) {
@@ -254,7 +261,8 @@ INSTANTIATE_TEST_SUITE_P(
             "\"neck\": {\"grid_points\": 4, \"profile_m\": [[0.5, 0], [0.4, 0]]}, \"probes\": [",
             "strings[0].neck.profile_m[1][0]: 0.4 (allowed: positions that do not decrease, here from 0.5)"},
         Wrong{"\"probes\": [", "\"neck\": {\"grid_points\": 4, \"profile_m\": [[0.5]]}, \"probes\": [",
-              "strings[0].neck.profile_m[0]: an array of 1 (allowed: [position, height])"}));
+              "strings[0].neck.profile_m[0]: an array of 1 (allowed: [position, height])"}),
+    [](const auto& wrong) { return name_of(wrong.param) + "_" + std::to_string(wrong.index); });
 
 /// What only compile() can see, told in the file's terms.
 std::string compile_failure(const std::string& text) {
