@@ -18,6 +18,7 @@ commands=("$@")
 mirror=${MIRROR:-http://deb.debian.org/debian}
 
 root=$(mktemp -d)
+chmod 755 "$root"  # apt fetches as a user of its own
 # Mounts are in a name space of their own (below) and gone by then.
 trap '[[ -n ${KEEP:-} ]] && echo "check_bare: left in $root" || rm -rf --one-file-system "$root"' EXIT
 start=$SECONDS
