@@ -153,7 +153,8 @@ inline std::array<AlignedVector<double>*, 16> mode_arrays(StringTuning& tuning) 
 
 /// A string at one tension. Copies share the shape.
 struct StringModel {
-    std::shared_ptr<const StringShape> shape;
+    /// Never null: that of a string without modes until compile() gives one, e.g. at stops that no key plays.
+    std::shared_ptr<const StringShape> shape = std::make_shared<const StringShape>();
     StringTuning tuning;
 };
 
