@@ -4,7 +4,7 @@
 
 namespace jawari {
 
-Counters& operator+=(Counters& sum, const Counters& more) noexcept {
+Counters& operator+=(Counters& sum, const Counters& more) JAWARI_REALTIME {
     sum.steps += more.steps;
     sum.candidates += more.candidates;
     sum.impulses += more.impulses;

@@ -157,7 +157,7 @@ struct InstrumentCounters {
 };
 
 /// Adds the counts of `more`. Threads: any; realtime-safe.
-InstrumentCounters& operator+=(InstrumentCounters& sum, const InstrumentCounters& more) noexcept;
+InstrumentCounters& operator+=(InstrumentCounters& sum, const InstrumentCounters& more) JAWARI_REALTIME;
 
 /// An instrument while it plays. One thread at a time may use it.
 struct InstrumentState {

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "jawari/realtime.h"
+
 namespace jawari {
 
 /// Counts of one string since its reset(), and the worst residual and penetration seen. Sums over several
@@ -24,7 +26,7 @@ struct Counters {
     double worst_penetration_m = 0;
 };
 
-/// Adds the counts of `more`; keeps the larger residual and penetration. Realtime-safe.
-Counters& operator+=(Counters& sum, const Counters& more) noexcept;
+/// Adds the counts of `more`; keeps the larger residual and penetration. Threads: any; realtime-safe.
+Counters& operator+=(Counters& sum, const Counters& more) JAWARI_REALTIME;
 
 }  // namespace jawari

@@ -34,7 +34,7 @@ ChannelState neutral_channel() {
 
 }  // namespace
 
-InstrumentCounters& operator+=(InstrumentCounters& sum, const InstrumentCounters& more) noexcept {
+InstrumentCounters& operator+=(InstrumentCounters& sum, const InstrumentCounters& more) JAWARI_REALTIME {
     sum.notes += more.notes;
     sum.ignored_notes += more.ignored_notes;
     sum.stolen_notes += more.stolen_notes;

@@ -95,7 +95,7 @@ TEST(InstrumentControls, AreInheritedWithoutNotes) {
     EXPECT_EQ(held_notes(to), 0U);
 
     InstrumentState told = make_instrument_state(model);
-    play(model, told, controls, 0);
+    render_instrument(model, told, controls, nullptr, 0);
     const std::vector<InstrumentEvent> note{note_on(0, 43, 0.9)};
     const auto inherited = play(model, to, note, 4000);
     EXPECT_EQ(inherited, play(model, told, note, 4000));
