@@ -1,5 +1,16 @@
 # One target per layer of the tree, and the check that no layer includes one above it (cmake/layers.txt).
 
+# jawari_keep_apart(FILE...): those that Highway reads once per instruction set share no unit with others (CMAKE_UNITY_BUILD):
+# it does so for one file of a unit.
+function(jawari_keep_apart)
+  foreach(source ${ARGN})
+    file(STRINGS ${source} of_instruction_sets REGEX "hwy/foreach_target\\.h" LIMIT_COUNT 1)
+    if(of_instruction_sets)
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
+endfunction()
+
 # jawari_layer(NAME OBJECT|STATIC FOLDER SOURCES file... [USES target...] [NEEDS target...]): the sources of one folder as a
 # library. USES are the layers below it, which who uses the layer uses too; NEEDS are libraries of its own.
 function(jawari_layer name kind folder)
@@ -11,6 +22,7 @@ function(jawari_layer name kind folder)
     target_link_libraries(${name} INTERFACE ${ARG_USES})
   else()
     add_library(${name} ${kind} ${ARG_SOURCES})
+    jawari_keep_apart(${ARG_SOURCES})
     target_link_libraries(${name} PUBLIC ${ARG_USES} PRIVATE ${ARG_NEEDS} jawari_options)
     add_dependencies(${name} jawari_layers)
   endif()

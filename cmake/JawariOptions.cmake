@@ -17,3 +17,6 @@ if(JAWARI_SANITIZE)
   add_link_options(-fsanitize=${JAWARI_SANITIZE})
   add_compile_definitions(JAWARI_SANITIZED)  # tests that a sanitizer slows down or contradicts look at it
 endif()
+if(CMAKE_UNITY_BUILD AND NOT MSVC)
+  target_compile_options(jawari_options INTERFACE -Wno-shadow)  # of a name in another file; other builds look
+endif()

@@ -3,8 +3,8 @@
 # Usage: scripts/lint.sh [--fix-format|--analyze]
 #   --fix-format: reformat in place instead of checking
 #   --analyze: each file by itself, and with the path-sensitive analyzer as well (clang-analyzer-*): four times as long
-# Without it, clang-tidy reads eight files at a time, because most of its time goes to the headers they share; a few
-# checks look at a file only if it is read by itself.
+# Without it, clang-tidy reads up to eight files of a layer at a time, because most of its time goes to the headers they share;
+# a few checks look at a file only if it is read by itself.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
@@ -25,7 +25,7 @@ if $fix; then
 fi
 
 failed=0
-clang-format --dry-run --Werror "${sources[@]}" || failed=1
+printf '%s\0' "${sources[@]}" | xargs -0 -n 50 -P "$(nproc)" clang-format --dry-run --Werror || failed=1
 ((failed)) && echo "lint: formatting differs; scripts/lint.sh --fix-format" >&2
 
 # configure FOLDER UNITY: compile commands for build/FOLDER.
@@ -36,6 +36,12 @@ configure() {
 # Kernels are read for one instruction set: the other copies are the same source.
 tidy() {
     clang-tidy -quiet -p "build/$1" "${checks[@]}" -extra-arg=-DHWY_COMPILE_ONLY_STATIC "$2" 2> /dev/null
+}
+
+# units_of FOLDER: what is compiled for engine and host, the units that take longest (those of several files) first.
+units_of() {
+    sed -n 's/^  "file": "\(.*\)".*/\1/p' "build/$1/compile_commands.json" | grep -E "^$PWD/((build/$1/)?(engine|host)/)" |
+        grep -v builtin_table | sort -u | awk '{ print (/_cxx\.cxx$/ ? 0 : 1), $0 }' | sort | cut -d ' ' -f 2-
 }
 
 # lint_unit FILE: what clang-tidy finds. Files that use one name for two things cannot be read together: then one by one.
@@ -57,7 +63,7 @@ lint_unit() {
 configure lint-files OFF
 if [[ $unity == ON ]]; then
     configure lint ON
-    mapfile -t units < <(find build/lint/engine build/lint/host -name 'unity_*_cxx.cxx' | sort)
+    mapfile -t units < <(units_of lint)
 else
     mapfile -t units < <(find engine host -name '*.cpp' | sort)
 fi

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Builds everything and runs all tests. Usage: scripts/test.sh [--full]
 #   --full: also warnings as errors, lint, the engine compiled for NEON and for one lane, the tests under
-#           address, undefined-behaviour and thread sanitizers, each fuzz target for ten seconds, and instruction counts
+#           address, undefined-behaviour and thread sanitizers, each fuzz target for four seconds, and instruction counts
 #           against their table.
-# Every stage runs even if one before it failed; what failed ones said last and the summaries of all test runs close the
-# output.
+# Every stage runs even if one before it failed; what failed ones said last, the time of each stage (and the time its
+# processes used, so that an idle core shows) and the summaries of all test runs close the output.
 set -uo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." || exit 1
 
@@ -26,15 +26,24 @@ test_runs=()  # ctest's closing lines of each test run
 failures=()   # the last lines of each stage that failed
 failed=0
 
+# processor_seconds: what the processes that this script has waited for have used so far, in whole seconds.
+processor_seconds() {
+    times > "$logs/times"
+    used_s=$(tail -n 1 "$logs/times" | tr 'ms' '  ' | awk '{ printf "%d", 60 * ($1 + $3) + $2 + $4 }')
+}
+
 # stage NAME COMMAND...: runs it, keeps its output, notes failure and time.
 stage() {
-    local name=$1 start=$SECONDS
+    local name=$1 start=$SECONDS start_used result=passed took
+    processor_seconds
+    start_used=$used_s
     shift
     printf '\n== %s\n' "$name"
-    if "$@" 2>&1 | tee "$logs/last"; then
-        stages+=("$name: passed, $((SECONDS - start)) s")
-    else
-        stages+=("$name: FAILED, $((SECONDS - start)) s")
+    "$@" 2>&1 | tee "$logs/last" || result=FAILED
+    processor_seconds
+    took="$((SECONDS - start)) s (processors $((used_s - start_used)) s)"
+    stages+=("$name: $result, $took")
+    if [[ $result == FAILED ]]; then
         failures+=("" "== $name failed:" "$(grep -E -A 30 '\*\*\*(Failed|Exception|Timeout)' "$logs/last" | tail -n 90)"
             "$(tail -n 25 "$logs/last")")
         failed=1
@@ -57,17 +66,22 @@ tests() {
     test_runs+=("" "$preset:" "$(sed -n '/% tests passed/,$p' "$logs/last")")
 }
 
-# Each target starts from its seeds and a fresh corpus; a crash leaves its input in build/asan-ubsan/.
+# fuzz_target PROGRAM: four seconds, the reading of its seeds included, and a fresh corpus; a crash leaves its input in build/asan-ubsan/.
+fuzz_target() {
+    local name=${1##*/fuzz_}
+    local corpus=$logs/corpus_$name
+    mkdir -p "$corpus"
+    "$1" -max_total_time=4 -timeout=25 -rss_limit_mb=2048 -print_final_stats=1 -verbosity=0 \
+        -artifact_prefix="build/asan-ubsan/$name-" "$corpus" "build/asan-ubsan/seeds/$name" > "$corpus.log" 2>&1
+    local status=$?
+    echo "-- $name"
+    cat "$corpus.log"
+    return "$status"
+}
 fuzz() {
-    local target
-    for target in build/asan-ubsan/bin/fuzz_*; do
-        local name=${target##*/fuzz_}
-        local corpus=$logs/corpus_$name
-        mkdir -p "$corpus"
-        echo "-- $name"
-        "$target" -max_total_time=10 -timeout=25 -rss_limit_mb=2048 -print_final_stats=1 -verbosity=0 \
-            -artifact_prefix="build/asan-ubsan/$name-" "$corpus" "build/asan-ubsan/seeds/$name" || return 1
-    done
+    export -f fuzz_target
+    export logs
+    printf '%s\0' build/asan-ubsan/bin/fuzz_* | xargs -0 -n 1 -P "$jobs" bash -c 'fuzz_target "$0"'
 }
 
 setup_arguments=()

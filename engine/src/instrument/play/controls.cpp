@@ -15,10 +15,6 @@ namespace {
 /// A bend that is this close to its target arrives [semitones].
 constexpr double close_enough = 1e-3;
 
-const ChannelState& channel_of(const InstrumentState& state, int channel) {
-    return state.channels[static_cast<std::size_t>(channel)];
-}
-
 void follow_bend(const InstrumentModel& model, InstrumentState& state, std::size_t s, Voice& voice) {
     const StoppedStringModel& stopped = string_of(model, state, s).stopped[voice.fret];
     const double wanted = bend_target(model, state, s);
@@ -47,7 +43,7 @@ void follow_controls(const InstrumentModel& model, InstrumentState& state) JAWAR
         }
         if (string.sounding == no_voice) continue;
         Voice& sounding = string.voices[string.sounding];
-        const ChannelState& controls = channel_of(state, sounding.channel);
+        const ChannelState& controls = state.channels[static_cast<std::size_t>(sounding.channel)];
         press_palm(model, string_of(model, state, s), sounding, parameter_of(controls, ParameterId::PalmMute),
                    parameter_of(controls, ParameterId::PalmPosition));
         follow_bend(model, state, s, sounding);

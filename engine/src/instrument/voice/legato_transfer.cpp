@@ -12,7 +12,7 @@
 namespace jawari {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Mode j of a length L seen from the bridge at distance d: sqrt(2/L) (-1)^(j+1) sin(j pi d/L).
 double sign_of(std::size_t j) {

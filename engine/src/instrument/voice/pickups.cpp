@@ -11,7 +11,7 @@
 namespace jawari {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Partials between this share of the output's Nyquist rate and all of it leave the output by half a cosine:
 /// what an impulse sends to a pickup arrives as a band-limited pulse, without a step that would alias.
