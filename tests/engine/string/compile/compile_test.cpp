@@ -103,7 +103,8 @@ TEST(Compile, ExactStartsPassThroughTheTrueMotion) {
     }
     // `backward` takes the true velocity literally.
     scene.strings[0].initial.start = Start::Backward;
-    for (const double v : test::compiled_string(scene).shape->initial_velocity) EXPECT_EQ(v, 0);
+    const StringModel backward = test::compiled_string(scene);
+    for (const double v : backward.shape->initial_velocity) EXPECT_EQ(v, 0);
 }
 
 TEST(Compile, RefusesCoefficientsThatAreNotFinite) {
