@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
 #include "instrument/touch/touches.h"
@@ -14,6 +13,7 @@
 #include "string/kernels/flight.h"
 #include "string/kernels/mode_bounds.h"
 #include "string/state/excitation.h"
+#include "support/multiprecision.h"
 #include "support/scenes.h"
 
 namespace jawari {
