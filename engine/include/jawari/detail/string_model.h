@@ -153,8 +153,9 @@ inline std::array<AlignedVector<double>*, 16> mode_arrays(StringTuning& tuning) 
 
 /// A string at one tension. Copies share the shape.
 struct StringModel {
-    /// Never null: that of a string without modes until compile() gives one, e.g. at stops that no key plays.
-    std::shared_ptr<const StringShape> shape = std::make_shared<const StringShape>();
+    /// Set by compile(), which gives stops that no key plays the shape of a string without modes; of a bent
+    /// string by its first bend, null before.
+    std::shared_ptr<const StringShape> shape;
     StringTuning tuning;
 };
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -144,7 +145,10 @@ Result<StoppedStringModel> compile_stopped(const InstrumentDescription& instrume
                                            std::size_t fret) {
     StoppedStringModel stopped;
     stopped.frequency_hz = note_frequency(instrument, instrument.strings[index], fret);
-    if (!std::isfinite(stopped.frequency_hz)) return stopped;
+    if (!std::isfinite(stopped.frequency_hz)) {  // no key plays it
+        stopped.string.shape = std::make_shared<const StringShape>();
+        return stopped;
+    }
     const FretsDescription& frets = frets_of(instrument, instrument.strings[index]);
     stopped.key = instrument.strings[index].open_note + semitones_of(frets, fret);
     std::string place = detail::indexed_place("strings", index);
