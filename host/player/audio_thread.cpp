@@ -21,7 +21,7 @@ std::optional<Limiter> limiter_of(const LiveSettings& settings) {
 
 }  // namespace
 
-Performer::Performer(const LiveSettings& settings, LiveLinks& links)
+AudioThread::AudioThread(const LiveSettings& settings, LiveLinks& links)
     : settings_(settings),
       links_(links),
       interpreter_(make_interpreter(settings.interpreter)),
@@ -36,8 +36,8 @@ Performer::Performer(const LiveSettings& settings, LiveLinks& links)
     captured_.resize(settings.most_frames);
 }
 
-void Performer::process(double* left, double* right, std::size_t frames,
-                        std::int64_t now_ns) JAWARI_REALTIME {
+void AudioThread::process(double* left, double* right, std::size_t frames,
+                          std::int64_t now_ns) JAWARI_REALTIME {
     const NoDenormals guard;
     const std::int64_t started_ns = settings_.clock();
     begin_block(clock_, now_ns, frames);
@@ -58,7 +58,7 @@ void Performer::process(double* left, double* right, std::size_t frames,
 
 // ---------------------------------------------------------------------------------------------- messages
 
-void Performer::take_messages(std::size_t frames) JAWARI_REALTIME {
+void AudioThread::take_messages(std::size_t frames) JAWARI_REALTIME {
     links_.inlet.begin_block();
     ArrivedMessage arrived;
     for (std::size_t n = 0; n < most_messages; ++n) {
@@ -69,7 +69,7 @@ void Performer::take_messages(std::size_t frames) JAWARI_REALTIME {
     }
 }
 
-void Performer::apply(const ChannelMessage& message, std::size_t offset) JAWARI_REALTIME {
+void AudioThread::apply(const ChannelMessage& message, std::size_t offset) JAWARI_REALTIME {
     interpret(interpreter_, message, actions_);
     remember(controllers_, message);
     for (std::size_t i = 0; i < actions_.count; ++i) add_event(actions_.events[i], offset);
@@ -84,7 +84,7 @@ void Performer::apply(const ChannelMessage& message, std::size_t offset) JAWARI_
     if (links_.monitor.load(std::memory_order_relaxed)) links_.applied.push({frame, message});
 }
 
-void Performer::add_event(InstrumentEvent event, std::size_t offset) JAWARI_REALTIME {
+void AudioThread::add_event(InstrumentEvent event, std::size_t offset) JAWARI_REALTIME {
     // As make_score(): in guitar mode, other channels have no strings.
     const bool guitar = settings_.interpreter.guitar_channel >= 0;
     if (guitar && event.type == InstrumentEventType::NoteOn && event.string < 0) return;
@@ -101,7 +101,7 @@ void Performer::add_event(InstrumentEvent event, std::size_t offset) JAWARI_REAL
 
 // ---------------------------------------------------------------------------------------------- sound
 
-void Performer::render(double* left, double* right, std::size_t begin, std::size_t frames) JAWARI_REALTIME {
+void AudioThread::render(double* left, double* right, std::size_t begin, std::size_t frames) JAWARI_REALTIME {
     std::fill(left, left + frames, 0.0);
     std::fill(right, right + frames, 0.0);
     follow_gain(frames);
@@ -114,7 +114,7 @@ void Performer::render(double* left, double* right, std::size_t begin, std::size
     frame_ += frames;
 }
 
-void Performer::follow_gain(std::size_t frames) JAWARI_REALTIME {
+void AudioThread::follow_gain(std::size_t frames) JAWARI_REALTIME {
     for (std::size_t n = 0; n < frames; ++n) {
         if (gain_ != gain_target_) {
             const double left = gain_target_ - gain_;
@@ -124,8 +124,8 @@ void Performer::follow_gain(std::size_t frames) JAWARI_REALTIME {
     }
 }
 
-void Performer::render_one(LiveInstrument& instrument, bool plays, std::size_t begin, std::size_t frames,
-                           double* left, double* right) JAWARI_REALTIME {
+void AudioThread::render_one(LiveInstrument& instrument, bool plays, std::size_t begin, std::size_t frames,
+                             double* left, double* right) JAWARI_REALTIME {
     chunk_.clear();
     for (const InstrumentEvent& event : events_) {
         if (event.frame < begin || event.frame >= begin + frames) continue;
@@ -143,7 +143,7 @@ void Performer::render_one(LiveInstrument& instrument, bool plays, std::size_t b
     if (!plays) instrument.ring_frames += frames;
 }
 
-void Performer::capture(const double* left, const double* right, std::size_t frames) JAWARI_REALTIME {
+void AudioThread::capture(const double* left, const double* right, std::size_t frames) JAWARI_REALTIME {
     const std::size_t skipped = std::min(capture_skip_, frames);
     capture_skip_ -= skipped;
     std::size_t end = frames;
@@ -162,7 +162,7 @@ void Performer::capture(const double* left, const double* right, std::size_t fra
     if (capture_left_ == 0) end_capture();
 }
 
-void Performer::end_capture() JAWARI_REALTIME {
+void AudioThread::end_capture() JAWARI_REALTIME {
     if (capture_ == nullptr) return;
     capture_left_ = 0;
     // The other side may free the ring from here on.

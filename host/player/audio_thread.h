@@ -46,10 +46,10 @@ struct LiveLinks {
 
 std::uint32_t pack(const ProgramRequest& request) JAWARI_REALTIME;
 
-class Performer {
+class AudioThread {
   public:
     /// Both must outlive it.
-    Performer(const LiveSettings& settings, LiveLinks& links);
+    AudioThread(const LiveSettings& settings, LiveLinks& links);
 
     void process(double* left, double* right, std::size_t frames, std::int64_t now_ns) JAWARI_REALTIME;
 

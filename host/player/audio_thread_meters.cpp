@@ -24,13 +24,13 @@ double largest(const double* x, std::size_t count) {
 
 }  // namespace
 
-void Performer::measure_level(const double* left, const double* right, std::size_t frames) JAWARI_REALTIME {
+void AudioThread::measure_level(const double* left, const double* right, std::size_t frames) JAWARI_REALTIME {
     raise(links_.meters.peak_left, largest(left, frames));
     raise(links_.meters.peak_right, largest(right, frames));
     if (limiter_) links_.meters.limiter_gain.store(limiter_->least_gain, relaxed);
 }
 
-void Performer::measure_instruments() JAWARI_REALTIME {
+void AudioThread::measure_instruments() JAWARI_REALTIME {
     InstrumentCounters counters = retired_counters_;
     std::uint64_t nonfinite = retired_nonfinite_;
     std::size_t held = 0;
@@ -57,13 +57,13 @@ void Performer::measure_instruments() JAWARI_REALTIME {
 }
 
 /// Surveys one string of each instrument per block: measuring all at once would cost too much.
-void Performer::survey_strings() JAWARI_REALTIME {
+void AudioThread::survey_strings() JAWARI_REALTIME {
     if (sounding_ == 0) return;
     for (std::size_t i = 0; i < sounding_; ++i) survey_string(*stage_[i]);
     links_.meters.energy_J.store(stage_[0]->energy_J, relaxed);
 }
 
-void Performer::survey_string(LiveInstrument& instrument) JAWARI_REALTIME {
+void AudioThread::survey_string(LiveInstrument& instrument) JAWARI_REALTIME {
     InstrumentState& state = instrument.state;
     const InstrumentModel& model = instrument.loaded->model;
     instrument.energy_sum_J += string_energy(model, state, instrument.surveyed);
@@ -78,7 +78,7 @@ void Performer::survey_string(LiveInstrument& instrument) JAWARI_REALTIME {
     instrument.nonfinite_sum = 0;
 }
 
-void Performer::measure(std::size_t frames, std::int64_t started_ns) JAWARI_REALTIME {
+void AudioThread::measure(std::size_t frames, std::int64_t started_ns) JAWARI_REALTIME {
     LiveMeters& meters = links_.meters;
     if (frames == 0) return;
     const double available_s = static_cast<double>(frames) / settings_.rate_hz;
@@ -97,7 +97,7 @@ void Performer::measure(std::size_t frames, std::int64_t started_ns) JAWARI_REAL
     notify(LiveNotice::Kind::OverloadLevel, level);
 }
 
-void Performer::notify(LiveNotice::Kind kind, double value) JAWARI_REALTIME {
+void AudioThread::notify(LiveNotice::Kind kind, double value) JAWARI_REALTIME {
     links_.notices.push({kind, frame_, value});  // if nobody reads them, later ones are left out
 }
 

@@ -32,7 +32,7 @@ std::size_t quality_level_at(OverloadLevel level, bool held, std::size_t lowest)
 
 }  // namespace
 
-void Performer::adapt_quality() JAWARI_REALTIME {
+void AudioThread::adapt_quality() JAWARI_REALTIME {
     if (governor_.level == OverloadLevel::Full && lowered_ == 0) return;
     std::size_t changes = 0;
     lowered_ = 0;

@@ -17,13 +17,13 @@ constexpr double gain_time_s = 0.01;
 
 }  // namespace
 
-void Performer::obey_commands() JAWARI_REALTIME {
+void AudioThread::obey_commands() JAWARI_REALTIME {
     while (links_.commands.read_available() > 0 && obey(links_.commands.front())) links_.commands.pop();
     take_stage();
 }
 
 /// False if it has to wait.
-bool Performer::obey(const LiveCommand& command) JAWARI_REALTIME {
+bool AudioThread::obey(const LiveCommand& command) JAWARI_REALTIME {
     switch (command.kind) {
         case LiveCommand::Kind::SetParameter:
             if (events_.size() == events_.capacity()) return false;
@@ -50,7 +50,7 @@ bool Performer::obey(const LiveCommand& command) JAWARI_REALTIME {
 }
 
 /// As messages, so that a recording has them.
-bool Performer::panic() JAWARI_REALTIME {
+bool AudioThread::panic() JAWARI_REALTIME {
     constexpr std::uint8_t all_sound_off = 120;
     constexpr std::uint8_t reset_all_controllers = 121;
     constexpr std::size_t most_events_of_panic = 2 * midi_channel_count * most_events_per_message;
@@ -66,13 +66,13 @@ bool Performer::panic() JAWARI_REALTIME {
 // ---------------------------------------------------------------------------------------------- instruments
 
 /// Takes the stage at the next occasion. Another one that still waits for it will never be heard.
-void Performer::call_on_stage(LiveInstrument* instrument) JAWARI_REALTIME {
+void AudioThread::call_on_stage(LiveInstrument* instrument) JAWARI_REALTIME {
     if (waiting_ != nullptr) links_.retired.push(waiting_);
     waiting_ = instrument;
 }
 
 /// While as many instruments sound as may, the oldest fades first.
-void Performer::take_stage() JAWARI_REALTIME {
+void AudioThread::take_stage() JAWARI_REALTIME {
     if (waiting_ == nullptr) return;
     if (sounding_ == most_sounding) {
         stage_[sounding_ - 1]->fading = true;
@@ -86,7 +86,7 @@ void Performer::take_stage() JAWARI_REALTIME {
     sounding_ += 1;
 }
 
-void Performer::fade(LiveInstrument& instrument, std::size_t frames) JAWARI_REALTIME {
+void AudioThread::fade(LiveInstrument& instrument, std::size_t frames) JAWARI_REALTIME {
     for (std::size_t n = 0; n < frames; ++n) {
         const double gone = std::min(1.0, static_cast<double>(instrument.fade_frame) / fade_frames());
         const double gain = 0.5 * (1 + std::cos(std::numbers::pi * gone));
@@ -96,11 +96,11 @@ void Performer::fade(LiveInstrument& instrument, std::size_t frames) JAWARI_REAL
     }
 }
 
-double Performer::fade_frames() const JAWARI_REALTIME {
+double AudioThread::fade_frames() const JAWARI_REALTIME {
     return std::ceil(stage_fade_s * settings_.rate_hz);
 }
 
-void Performer::retire_silent() JAWARI_REALTIME {
+void AudioThread::retire_silent() JAWARI_REALTIME {
     std::size_t kept = std::min<std::size_t>(sounding_, 1);
     for (std::size_t i = 1; i < sounding_; ++i) {
         LiveInstrument& old = *stage_[i];
@@ -118,7 +118,7 @@ void Performer::retire_silent() JAWARI_REALTIME {
     sounding_ = kept;
 }
 
-void Performer::give_back_all() JAWARI_REALTIME {
+void AudioThread::give_back_all() JAWARI_REALTIME {
     for (std::size_t i = 0; i < sounding_; ++i) links_.retired.push(stage_[i]);
     sounding_ = 0;
     call_on_stage(nullptr);
@@ -127,7 +127,7 @@ void Performer::give_back_all() JAWARI_REALTIME {
 
 // ---------------------------------------------------------------------------------------------- recording
 
-void Performer::start_capture(CaptureRing* ring) JAWARI_REALTIME {
+void AudioThread::start_capture(CaptureRing* ring) JAWARI_REALTIME {
     capture_ = ring;
     capture_begin_ = frame_;
     capture_skip_ = limiter_ ? limiter_->look_ahead : 0;
@@ -143,7 +143,7 @@ void Performer::start_capture(CaptureRing* ring) JAWARI_REALTIME {
     for (std::size_t i = 0; i < sounding_; ++i) set_clock(stage_[i]->state, 0);
 }
 
-void Performer::stop_capture() JAWARI_REALTIME {
+void AudioThread::stop_capture() JAWARI_REALTIME {
     if (capture_ != nullptr && limiter_ && capture_left_ == 0) {
         capture_left_ = limiter_->look_ahead;
     } else {

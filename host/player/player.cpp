@@ -51,11 +51,11 @@ ProgramRequest unpack_program(std::uint32_t packed) {
 
 struct LivePlayer::Shared {
     explicit Shared(const LiveSettings& live_settings)
-        : settings(live_settings), performer(live_settings, links) {}
+        : settings(live_settings), audio_thread(live_settings, links) {}
 
     const LiveSettings settings;
     LiveLinks links;
-    Performer performer;
+    AudioThread audio_thread;
 
     // Of the control thread:
     SharedInstrument latest;
@@ -71,7 +71,7 @@ LivePlayer::LivePlayer(const LiveSettings& settings) : shared_(std::make_unique<
 }
 
 LivePlayer::~LivePlayer() {
-    shared_->performer.give_back_all();
+    shared_->audio_thread.give_back_all();
     shared_->links.commands.consume_all([](const LiveCommand& command) {
         delete command.instrument;  // NOLINT(cppcoreguidelines-owning-memory): never reached the stage
         if (command.capture != nullptr) command.capture->ended.store(true);
@@ -171,7 +171,7 @@ const SharedInstrument& LivePlayer::instrument() const noexcept {
 }
 
 std::size_t LivePlayer::latency_frames() const noexcept {
-    return shared_->performer.limiter_frames();
+    return shared_->audio_thread.limiter_frames();
 }
 
 void LivePlayer::report_xrun() noexcept {
@@ -180,7 +180,7 @@ void LivePlayer::report_xrun() noexcept {
 
 void LivePlayer::process(double* left, double* right, std::size_t frames,
                          std::int64_t now_ns) JAWARI_REALTIME {
-    shared_->performer.process(left, right, frames, now_ns);
+    shared_->audio_thread.process(left, right, frames, now_ns);
 }
 
 }  // namespace jawari::host

@@ -70,7 +70,7 @@ Outcome<LiveSettings> live_settings(const PlayOptions& options, const Instrument
 
 }  // namespace
 
-Outcome<std::unique_ptr<Performance>> Performance::create(const PlayOptions& options, double rate_hz,
+Outcome<std::unique_ptr<PlayControl>> PlayControl::create(const PlayOptions& options, double rate_hz,
                                                           std::size_t frames) {
     auto instruments = instrument_settings(options, rate_hz);
     if (!instruments) return instruments.error();
@@ -79,20 +79,20 @@ Outcome<std::unique_ptr<Performance>> Performance::create(const PlayOptions& opt
     const auto live = live_settings(options, preset.value().instrument, rate_hz, frames);
     if (!live) return live.error();
 
-    std::unique_ptr<Performance> performance(new Performance(live.value(), std::move(instruments.value())));
-    performance->guitar_channel_ = guitar_channel(options, preset.value().instrument);
-    performance->follows_programs_ = options.preset.value_or(play_defaults::preset) == play_defaults::preset;
-    performance->port_ = performance->player_.add_port();
-    if (auto error = performance->play_preset(first_preset(options))) return *error;
+    std::unique_ptr<PlayControl> control(new PlayControl(live.value(), std::move(instruments.value())));
+    control->guitar_channel_ = guitar_channel(options, preset.value().instrument);
+    control->follows_programs_ = options.preset.value_or(play_defaults::preset) == play_defaults::preset;
+    control->port_ = control->player_.add_port();
+    if (auto error = control->play_preset(first_preset(options))) return *error;
     for (const auto& [parameter, value] : options.parameters) {
         if (parameter == ParameterId::BendRange) continue;
-        if (auto error = performance->set_parameter(parameter, value)) return *error;
+        if (auto error = control->set_parameter(parameter, value)) return *error;
     }
-    return performance;
+    return control;
 }
 
 /// The interpreter's strings are fixed when the player is made.
-MaybeError Performance::check_guitar(const InstrumentDescription& instrument) const {
+MaybeError PlayControl::check_guitar(const InstrumentDescription& instrument) const {
     if (guitar_channel_ == 0) return std::nullopt;
     InterpreterSettings wanted = guitar_;
     if (auto error = set_guitar_mode(instrument, guitar_channel_ - 1, wanted)) return error;
@@ -101,7 +101,7 @@ MaybeError Performance::check_guitar(const InstrumentDescription& instrument) co
     return Error{ErrorKind::Usage, "guitar mode: the strings are others; start jawari play with this preset"};
 }
 
-MaybeError Performance::play_preset(const std::string& preset) {
+MaybeError PlayControl::play_preset(const std::string& preset) {
     const auto instrument = load_and_compile(preset, instruments_);
     if (!instrument) return instrument.error();
     if (auto error = check_guitar(instrument.value()->preset.instrument)) return error;
@@ -115,12 +115,12 @@ MaybeError Performance::play_preset(const std::string& preset) {
     return std::nullopt;
 }
 
-MaybeError Performance::send(const LiveCommand& command) {
+MaybeError PlayControl::send(const LiveCommand& command) {
     if (player_.send(command)) return std::nullopt;
     return Error{ErrorKind::Device, "the audio thread takes no more commands"};
 }
 
-MaybeError Performance::set_parameter(ParameterId parameter, double value) {
+MaybeError PlayControl::set_parameter(ParameterId parameter, double value) {
     if (parameter == ParameterId::BendRange)
         return Error{ErrorKind::Usage, "bend_range: set by RPN 0, or --set when jawari play starts"};
     LiveCommand command;
@@ -130,27 +130,27 @@ MaybeError Performance::set_parameter(ParameterId parameter, double value) {
     return send(command);
 }
 
-MaybeError Performance::set_gain(double gain_db) {
+MaybeError PlayControl::set_gain(double gain_db) {
     LiveCommand command;
     command.kind = LiveCommand::Kind::SetGain;
     command.value = gain_factor(gain_db);
     return send(command);
 }
 
-MaybeError Performance::panic() {
+MaybeError PlayControl::panic() {
     notes_.clear();
     LiveCommand command;
     command.kind = LiveCommand::Kind::Panic;
     return send(command);
 }
 
-void Performance::note(int key, int velocity, double seconds, std::int64_t now_ns) {
+void PlayControl::note(int key, int velocity, double seconds, std::int64_t now_ns) {
     const auto byte = [](int value) { return static_cast<std::uint8_t>(value); };
     port_->push({{byte(static_cast<int>(MessageKind::NoteOn)), byte(key), byte(velocity)}, 0});
     notes_.push_back({key, now_ns + std::llround(seconds * 1e9)});
 }
 
-void Performance::tick(std::int64_t now_ns) {
+void PlayControl::tick(std::int64_t now_ns) {
     const auto is_over = [&](const TimedNote& note) { return note.end_ns <= now_ns; };
     for (const TimedNote& note : notes_)
         if (is_over(note))
@@ -161,7 +161,7 @@ void Performance::tick(std::int64_t now_ns) {
     player_.collect();
 }
 
-std::optional<std::string> Performance::asked_preset() {
+std::optional<std::string> PlayControl::asked_preset() {
     const auto request = player_.program_request();
     if (!request || !follows_programs_ || request->channel == drum_channel) return std::nullopt;
     const auto preset = program_preset(request->bank, request->program);

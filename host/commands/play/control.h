@@ -14,10 +14,10 @@
 
 namespace jawari::host {
 
-class Performance {
+class PlayControl {
   public:
     /// Reads every file that the options name and compiles the instrument. `frames`: of the device's blocks.
-    static Outcome<std::unique_ptr<Performance>> create(const PlayOptions& options, double rate_hz,
+    static Outcome<std::unique_ptr<PlayControl>> create(const PlayOptions& options, double rate_hz,
                                                         std::size_t frames);
 
     LivePlayer& player() { return player_; }
@@ -48,7 +48,7 @@ class Performance {
         std::int64_t end_ns = 0;
     };
 
-    Performance(const LiveSettings& live, InstrumentSettings instruments)
+    PlayControl(const LiveSettings& live, InstrumentSettings instruments)
         : instruments_(std::move(instruments)), guitar_(live.interpreter), player_(live) {}
     MaybeError send(const LiveCommand& command);
     MaybeError check_guitar(const InstrumentDescription& instrument) const;

@@ -90,7 +90,7 @@ MaybeError Session::open() {
             return error;
     }
     if (options_.lock_memory.value_or(false)) lock_memory(say_);
-    if (auto error = audio_.start(&render_block, &performance_->player())) return error;
+    if (auto error = audio_.start(&render_block, &control_->player())) return error;
     await_first_block();
     return std::nullopt;
 }
@@ -104,18 +104,18 @@ void Session::await_first_block() const {
 
 MaybeError Session::make_performance() {
     const AudioFacts& facts = audio_.facts();
-    auto performance = Performance::create(options_, facts.rate_hz, facts.frames);
-    if (!performance) return performance.error();
-    performance_ = std::move(performance.value());
+    auto control = PlayControl::create(options_, facts.rate_hz, facts.frames);
+    if (!control) return control.error();
+    control_ = std::move(control.value());
     monitor_ = options_.monitor.value_or(false);
-    performance_->player().set_monitor(monitor_);
+    control_->player().set_monitor(monitor_);
     told_drops_ = 0;
-    say_("preset: " + performance_->preset());
+    say_("preset: " + control_->preset());
     return std::nullopt;
 }
 
 MaybeError Session::connect_midi() {
-    LivePlayer& player = performance_->player();
+    LivePlayer& player = control_->player();
     midi_ = std::make_unique<MidiInputs>(
         MidiWish{options_.midi.value_or("auto"), options_.midi_in.value_or(automatic_midi_in)},
         [&player] { return player.add_port(); }, say_);
@@ -132,7 +132,7 @@ MaybeError Session::connect_midi() {
 // ------------------------------------------------------------ from time to time
 
 MaybeError Session::tick() {
-    performance_->tick(steady_clock_ns());
+    control_->tick(steady_clock_ns());
     tell_notices();
     follow_programs();
     const double now = now_s();
@@ -150,23 +150,23 @@ MaybeError Session::tick() {
 }
 
 void Session::tell_notices() {
-    LivePlayer& player = performance_->player();
+    LivePlayer& player = control_->player();
     while (const auto notice = player.notice()) say_(notice_text(*notice));
     while (const auto applied = player.applied())
         if (monitor_) say_(message_text(applied->message));
 }
 
 void Session::follow_programs() {
-    const auto preset = performance_->asked_preset();
+    const auto preset = control_->asked_preset();
     if (!preset) return;
-    if (const auto error = performance_->play_preset(*preset))
+    if (const auto error = control_->play_preset(*preset))
         say_("warning: " + error->message);
     else
         say_("preset: " + *preset);
 }
 
 void Session::sample_statistics() {
-    latest_ = performance_->player().statistics();
+    latest_ = control_->player().statistics();
     peak_left_ = std::max(peak_left_, latest_.peak_left);
     peak_right_ = std::max(peak_right_, latest_.peak_right);
     worst_load_ = std::max(worst_load_, latest_.worst_load);
@@ -201,18 +201,18 @@ bool Session::shares_server() const {
 /// The player is kept, and with it what sounds, unless the device has come back with another rate.
 MaybeError Session::recover() {
     if (!audio_.reopen()) return std::nullopt;
-    if (audio_.facts().rate_hz != performance_->rate_hz()) {
+    if (audio_.facts().rate_hz != control_->rate_hz()) {
         midi_.reset();
         if (recorder_) tell(stop_recording());
         options_.preset = options_.preset.value_or(play_defaults::preset) == play_defaults::preset
                               ? options_.preset
-                              : performance_->preset();
+                              : control_->preset();
         if (auto error = make_performance()) return error;
         if (auto error = connect_midi()) return error;
     } else if (shares_server()) {
         midi_->restart();
     }
-    if (const auto error = audio_.start(&render_block, &performance_->player()))
+    if (const auto error = audio_.start(&render_block, &control_->player()))
         say_("warning: " + error->message);
     return std::nullopt;
 }
@@ -222,11 +222,10 @@ StatusFacts Session::status() {
     facts.live = latest_;
     facts.live.peak_left = std::exchange(peak_left_, 0);
     facts.live.peak_right = std::exchange(peak_right_, 0);
-    facts.preset = performance_->preset();
+    facts.preset = control_->preset();
     facts.worst_load = worst_load_;
     facts.audio_runs = audio_.is_open();
-    if (recorder_)
-        facts.recorded_s = static_cast<double>(recorder_->status().frames) / performance_->rate_hz();
+    if (recorder_) facts.recorded_s = static_cast<double>(recorder_->status().frames) / control_->rate_hz();
     return facts;
 }
 
@@ -244,8 +243,8 @@ MaybeError Session::close() {
         else
             failure = line.error();
     }
-    if (performance_ && audio_.is_open()) {
-        (void)performance_->panic();
+    if (control_ && audio_.is_open()) {
+        (void)control_->panic();
         std::this_thread::sleep_for(std::chrono::duration<double>(fade_out_s));
     }
     audio_.close();

@@ -1,4 +1,4 @@
-// A live session: audio, MIDI and performance put together, and the commands that reach them. One thread, the
+// A live session: audio, MIDI and control put together, and the commands that reach them. One thread, the
 // control thread, calls everything here.
 #pragma once
 
@@ -41,7 +41,7 @@ class Session {
 
     /// Set by `quit`; also ends a session that waits for its last notes.
     [[nodiscard]] bool wants_to_end() const { return quit_; }
-    [[nodiscard]] bool has_notes() const { return performance_ && performance_->has_notes(); }
+    [[nodiscard]] bool has_notes() const { return control_ && control_->has_notes(); }
 
     /// Ends recordings, fades the sound out, ends devices. An error if a recording is not whole.
     MaybeError close();
@@ -74,7 +74,7 @@ class Session {
     PlayOptions options_;
     Say say_;
     AudioLink audio_;
-    std::unique_ptr<Performance> performance_;
+    std::unique_ptr<PlayControl> control_;
     std::unique_ptr<LiveRecorder> recorder_;
     RecordingSettings recorded_;  ///< of the recorder, or of the last one
     std::unique_ptr<MidiInputs> midi_;

@@ -28,10 +28,10 @@ MaybeError Session::start_recording(const std::string& sound, const std::string&
     RecordingSettings settings;
     settings.sound = sound;
     settings.midi = midi;
-    settings.rate_hz = static_cast<std::uint32_t>(std::lround(performance_->rate_hz()));
+    settings.rate_hz = static_cast<std::uint32_t>(std::lround(control_->rate_hz()));
     settings.overwrite = overwrite;
-    settings.tags = {"", "preset " + performance_->preset()};
-    auto recorder = LiveRecorder::start(performance_->player(), settings);
+    settings.tags = {"", "preset " + control_->preset()};
+    auto recorder = LiveRecorder::start(control_->player(), settings);
     if (!recorder) return recorder.error();
     recorder_ = std::move(recorder.value());
     recorded_ = settings;

@@ -49,7 +49,7 @@ VerbReply help(const VerbCall& call) {
 Outcome<VerbReply> Session::execute(const VerbCall& call) {
     switch (call.verb->id) {
         case VerbId::Preset:
-            return reply_to(performance_->play_preset(text_of(call, 0)));
+            return reply_to(control_->play_preset(text_of(call, 0)));
         case VerbId::Presets:
             return list_presets();
         case VerbId::Set:
@@ -59,18 +59,18 @@ Outcome<VerbReply> Session::execute(const VerbCall& call) {
         case VerbId::Gain:
             if (number_of(call, 0) < -120 || number_of(call, 0) > 60)
                 return usage_error("gain", shortest(number_of(call, 0)), "-120 to 60 dB");
-            return reply_to(performance_->set_gain(number_of(call, 0)));
+            return reply_to(control_->set_gain(number_of(call, 0)));
         case VerbId::Note:
             return note(call);
         case VerbId::Panic:
-            return reply_to(performance_->panic());
+            return reply_to(control_->panic());
         case VerbId::Record:
             return record(call);
         case VerbId::Stats:
             return stats();
         case VerbId::Monitor:
             monitor_ = text_of(call, 0) == "on";
-            performance_->player().set_monitor(monitor_);
+            control_->player().set_monitor(monitor_);
             return VerbReply{};
         case VerbId::Devices:
             return VerbReply{devices_text(survey_devices()), {}};
@@ -97,14 +97,14 @@ Outcome<VerbReply> Session::set(const VerbCall& call) {
     if (value < parameter->low || value > parameter->high)
         return usage_error("set " + std::string(parameter->key), shortest(value),
                            parameter_range(*parameter));
-    return reply_to(performance_->set_parameter(parameter->id, value));
+    return reply_to(control_->set_parameter(parameter->id, value));
 }
 
 Outcome<VerbReply> Session::get(const VerbCall& call) const {
     VerbReply reply;
     for (const ParameterDeclaration& parameter : parameter_table()) {
         if (!call.arguments.empty() && parameter.key != text_of(call, 0)) continue;
-        const double value = performance_->player().parameter(parameter.id);
+        const double value = control_->player().parameter(parameter.id);
         reply.lines.push_back(with_unit(parameter, value));
         reply.values.emplace_back(parameter.key, value);
     }
@@ -116,8 +116,8 @@ Outcome<VerbReply> Session::note(const VerbCall& call) {
     const double seconds = number_of(call, 2);
     if (seconds <= 0 || seconds > longest_note_s)
         return usage_error("note: SECONDS", shortest(seconds), "above 0, to " + shortest(longest_note_s));
-    performance_->note(static_cast<int>(number_of(call, 0)), static_cast<int>(number_of(call, 1)), seconds,
-                       steady_clock_ns());
+    control_->note(static_cast<int>(number_of(call, 0)), static_cast<int>(number_of(call, 1)), seconds,
+                   steady_clock_ns());
     return VerbReply{};
 }
 
