@@ -14,7 +14,7 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 /// A string does not come closer to a magnet than a fifth of its distance (pickup_signal,
-/// instrument_pickup.cpp).
+/// pickups.cpp).
 constexpr double strongest_magnet = 125;
 
 double total(const PlayerWork& work) {

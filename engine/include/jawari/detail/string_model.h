@@ -130,9 +130,9 @@ struct StringTuning {
 
     // -- tables over contacts, which are too large to make anew at another tension: a bent string has none
     /// Gap rates within a frame after an impulse of 1 N s [1/kg], rows of response_stride: one per pair of
-    /// contacts, or one per grid distance (response.h); empty where the table would be too large.
+    /// contacts, or one per grid distance (contact_response.h); empty where the table would be too large.
     AlignedVector<double> response;
-    /// The same step by step where frames have few steps (response.h): row [n][struck] over contacts,
+    /// The same step by step where frames have few steps (contact_tables.h): row [n][struck] over contacts,
     /// contact_stride apart; else empty.
     AlignedVector<double> step_response;
 };

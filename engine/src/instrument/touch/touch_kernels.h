@@ -1,4 +1,4 @@
-// The loops over modes that instruments add to those of strings (kernels.h), dispatched at run time.
+// The loops over modes that instruments add to those of strings (string/kernels), dispatched at run time.
 #pragma once
 
 #include <array>

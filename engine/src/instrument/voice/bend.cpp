@@ -33,7 +33,7 @@ kernels::Retuning retuning_of(const StoppedStringModel& stopped, double semitone
 #pragma clang diagnostic push
 #pragma clang diagnostic ignored "-Wfunction-effects"
 #endif
-/// The instrument's model outlives the motions played on it and holds every shape, so that nothing is freed
+/// The instrument's model outlives the voices played on it and holds every shape, so that nothing is freed
 /// here. Copying the pointer allocates nothing: one holder more, and one less of the shape before.
 void share_shape(const StringModel& compiled, StringModel& bent) JAWARI_REALTIME {
     bent.shape = compiled.shape;

@@ -9,11 +9,11 @@
 namespace jawari {
 namespace {
 
-/// A step of free motion: two products and two sums, of which two fuse (near_kernels.cpp).
+/// A step of free motion: two products and two sums, of which two fuse (mode_run.cpp).
 constexpr double step_operations = 3;
-/// A frame of free flight: four multiply-adds (flight_kernels.cpp).
+/// A frame of free flight: four multiply-adds (flight.cpp).
 constexpr double flight_operations = 4;
-/// All bounds of one mode (mode_bounds, skipping_kernels.cpp), the square root as ten.
+/// All bounds of one mode (mode_bounds.cpp), the square root as ten.
 constexpr double bound_operations = 17;
 
 struct Sizes {
@@ -75,14 +75,14 @@ double longest_solve(const Sizes& n) {
 }
 
 /// All modes through a short frame, the rates of all contacts at each step, and the response to all impulses
-/// (short_motion_kernels.cpp).
+/// (short_frame_modes.cpp).
 double short_run(const Sizes& n) {
     const double free = n.modes * n.steps * (step_operations + n.padded_contacts);
     return free + n.modes * (n.steps * (step_operations + n.active) + 2);
 }
 
 /// Impulses of the steps of a short frame applied to the rates of all later ones, and to the gaps of the step
-/// itself once more after a correction (contact_kernels.cpp).
+/// itself once more after a correction (short_frame_contacts.cpp).
 double short_spread(const Sizes& n) {
     return n.active * n.padded_contacts * (n.steps * (n.steps - 1) / 2 + 2 * n.steps);
 }
