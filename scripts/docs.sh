@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
 if ! command -v doxygen > /dev/null; then
-    echo "docs.sh: skipped, because doxygen is not installed" >&2
+    echo "skipped: doxygen is not installed"
     exit 77
 fi
 out=${1:-build/docs}

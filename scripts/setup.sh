@@ -45,12 +45,14 @@ test?        python3-mpmath          high-precision references: their tests are 
 test?        python3-h5py            independent reader of .h5 recordings: its tests are skipped
 test?        midicsv                 independent reader of MIDI files: its tests are skipped
 test?        jackd2                  sound server without hardware: live.* are skipped
+test?        jack-example-tools|jackd2 jack_wait and jack_rec: live.* are skipped
 full         clang                   libFuzzer and sanitizer builds
 full         clang-format            scripts/lint.sh
 full         clang-tidy              scripts/lint.sh
 full         libclang-rt-CLANG-dev|libclang-common-CLANG-dev libFuzzer and sanitizer run times
 full         valgrind                instruction counts
 full?        g++-aarch64-linux-gnu   cross compiler: scripts/check_neon.sh cannot run
+full?        doxygen                 reference of the public headers: docs.doxygen is skipped
 full?        openttd-openmsx         music that nobody here wrote: scripts/real_midi.py cannot run
 bench        valgrind                instruction counts
 bench        python3-matplotlib      plots of docs/benchmarks.md

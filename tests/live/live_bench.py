@@ -62,8 +62,9 @@ class Bench:
         self.children = []
 
     def __enter__(self):
-        if shutil.which("jackd") is None:
-            skip("jackd is not installed (scripts/setup.sh)")
+        for tool in ("jackd", "jack_wait", "jack_lsp", "jack_rec"):
+            if shutil.which(tool) is None:
+                skip(f"{tool} is not installed (scripts/setup.sh --test)")
         self.lock = wait_for_other_benches()
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="jawari-live-"))
         self.environment = {**os.environ, **ENVIRONMENT, "JACK_DEFAULT_SERVER": self.server_name,

@@ -64,7 +64,7 @@ void run_free(const StringModel& model, StringState& state, std::size_t first) {
 }
 
 void save_start(StringState& state) {
-    state.near_frame.start.gaps = state.contact;  // the part of it that is a ContactGaps
+    state.near_frame.start.gaps = static_cast<const ContactGaps&>(state.contact);
     state.near_frame.start.counters = state.counters;
 }
 

@@ -121,18 +121,18 @@ void render(const SceneModel& model, SceneState& state, std::span<double* const>
     state.frame += frames;
 }
 
-void move_contact(const StringModel& model, StringState& state, std::size_t described, double height_m,
+void move_contact(const StringModel& model, StringState& state, std::size_t contact, double height_m,
                   std::size_t steps) JAWARI_REALTIME {
-    JAWARI_ASSERT(described < model.shape->contact_of_description.size());
-    const std::ptrdiff_t kept = model.shape->contact_of_description[described];
+    JAWARI_ASSERT(contact < model.shape->contact_of_description.size());
+    const std::ptrdiff_t kept = model.shape->contact_of_description[contact];
     if (kept < 0) return;
-    const auto contact = static_cast<std::size_t>(kept);
+    const auto c = static_cast<std::size_t>(kept);
     ContactState& moved = state.contact;
-    const double sign = model.shape->contact_side[contact] == Side::Below ? 1.0 : -1.0;
-    const double distance = sign * height_m - moved.height[contact];
-    moved.height_target[contact] = sign * height_m;
-    moved.moving_steps[contact] = std::max<std::size_t>(steps, 1);
-    moved.height_rate[contact] = distance / static_cast<double>(moved.moving_steps[contact]);
+    const double sign = model.shape->contact_side[c] == Side::Below ? 1.0 : -1.0;
+    const double distance = sign * height_m - moved.height[c];
+    moved.height_target[c] = sign * height_m;
+    moved.moving_steps[c] = std::max<std::size_t>(steps, 1);
+    moved.height_rate[c] = distance / static_cast<double>(moved.moving_steps[c]);
     moved.moving_count += 1;
 }
 
