@@ -66,6 +66,27 @@ HWY_INLINE Step step_of(Vec omega2, Vec sigma, Vec loss, Vec frame_loss, double 
     return step;
 }
 
+/// What FlightModel has of a force on the mode.
+struct ForceResponse {
+    HWY_INLINE ForceResponse() {}  // NOLINT(modernize-use-equals-default): as Step()
+    Vec q_held, v_held, q_ramp, v_ramp;
+};
+
+/// The formulas of the force response of free flight (docs/engine/model.md); per_d = 1/d.
+HWY_INLINE ForceResponse force_response_of(const Step& step, Vec mobility, Vec per_d, double h, double m) {
+    const Lanes d;
+    const Vec alpha = hn::Mul(hn::Set(d, h * h), hn::Mul(mobility, per_d));
+    const Vec beta = hn::Mul(hn::Mul(hn::Sub(step.e, hn::Set(d, 1.0)), alpha), per_d);
+    const Vec alpha_rate = hn::Mul(alpha, hn::Set(d, 1 / h));
+    ForceResponse force;
+    force.q_held = hn::Neg(hn::Mul(step.qq, alpha));
+    force.v_held = hn::Neg(hn::Mul(step.vq, alpha));
+    force.q_ramp =
+        hn::NegMulAdd(step.qv, alpha_rate, hn::NegMulAdd(step.qq, beta, hn::Mul(alpha, hn::Set(d, m))));
+    force.v_ramp = hn::Neg(hn::MulAdd(step.vq, beta, hn::Mul(step.vv, alpha_rate)));
+    return force;
+}
+
 void retune(const StoppedStringModel& base, const Retuning& retuning, StringTuning& bent,
             double* HWY_RESTRICT backward_q, double* HWY_RESTRICT backward_u, const double* HWY_RESTRICT q,
             double* HWY_RESTRICT v) {
@@ -96,14 +117,7 @@ void retune(const StoppedStringModel& base, const Retuning& retuning, StringTuni
         // by a fraction of a percent instead (docs/engine/model.md).
         const Vec mobility = hn::Load(d, shape.mobility.data() + k);
         const Vec per_d = hn::Div(one, step.d);
-        const Vec alpha = hn::Mul(h2, hn::Mul(mobility, per_d));
-        const Vec beta = hn::Mul(hn::Mul(hn::Sub(step.e, one), alpha), per_d);
-        const Vec alpha_rate = hn::Mul(alpha, hn::Set(d, 1 / h));
-        const Vec q_held = hn::Neg(hn::Mul(step.qq, alpha));
-        const Vec v_held = hn::Neg(hn::Mul(step.vq, alpha));
-        const Vec q_ramp =
-            hn::NegMulAdd(step.qv, alpha_rate, hn::NegMulAdd(step.qq, beta, hn::Mul(alpha, hn::Set(d, m))));
-        const Vec v_ramp = hn::Neg(hn::MulAdd(step.vq, beta, hn::Mul(step.vv, alpha_rate)));
+        const ForceResponse force = force_response_of(step, mobility, per_d, h, m);
         const Vec quality = hn::Div(hn::Add(one, step.e), step.s);
         const auto keep = [&](Vec value, const AlignedVector<double>& old, AlignedVector<double>& out) {
             hn::Store(hn::IfThenElse(bends, value, hn::Load(d, old.data() + k)), d, out.data() + k);
@@ -114,10 +128,10 @@ void retune(const StoppedStringModel& base, const Retuning& retuning, StringTuni
         keep(step.qv, from.flight.qv, bent.flight.qv);
         keep(step.vq, from.flight.vq, bent.flight.vq);
         keep(step.vv, from.flight.vv, bent.flight.vv);
-        keep(q_held, from.flight.q_held, bent.flight.q_held);
-        keep(v_held, from.flight.v_held, bent.flight.v_held);
-        keep(q_ramp, from.flight.q_ramp, bent.flight.q_ramp);
-        keep(v_ramp, from.flight.v_ramp, bent.flight.v_ramp);
+        keep(force.q_held, from.flight.q_held, bent.flight.q_held);
+        keep(force.v_held, from.flight.v_held, bent.flight.v_held);
+        keep(force.q_ramp, from.flight.q_ramp, bent.flight.q_ramp);
+        keep(force.v_ramp, from.flight.v_ramp, bent.flight.v_ramp);
         keep(hn::Div(step.s, hn::Mul(hn::Set(d, 8.0), mobility)), from.kinetic, bent.kinetic);
         const Vec potential = hn::Div(step.d, hn::Mul(hn::Mul(hn::Set(d, 2.0), mobility), h2));
         keep(potential, from.potential, bent.potential);
