@@ -25,5 +25,6 @@ if(JAWARI_SANITIZE)
   add_compile_definitions(JAWARI_SANITIZED)  # tests that a sanitizer slows down or contradicts look at it
 endif()
 if(CMAKE_UNITY_BUILD AND NOT MSVC)
-  target_compile_options(jawari_options INTERFACE -Wno-shadow)  # of a name in another file; other builds look
+  # Of names in another file of the unit, or that GCC would not take for a header's; other builds look.
+  target_compile_options(jawari_options INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()

@@ -26,6 +26,9 @@ struct InstrumentOutput {
 /// do not depend on how frames are grouped into blocks. Events with a field out of range (or not finite) are
 /// ignored.
 ///
+/// *Order.* Events are in the order of their frames; one whose frame is before that of the event in front of
+/// it takes effect together with that event.
+///
 /// *Which string*, PlayMode::Keyboard. A key already held on the same channel is excited again on its string.
 /// Else, of the strings that have the note: one without a held note, with the lowest fret; if all are held,
 /// the one longest held by the pedal alone, then the one whose key went down first. Strings of a course go

@@ -90,20 +90,12 @@ void advance(const InstrumentModel& model, InstrumentState& state, std::span<dou
     state.frame += run.frames;
 }
 
-/// What callers of rendering promise.
-void check(const InstrumentModel& model, const InstrumentState& state,
-           [[maybe_unused]] std::span<const InstrumentEvent> events) {
-    JAWARI_ASSERT(state.strings.size() == model.strings.size());
-    JAWARI_ASSERT(std::is_sorted(events.begin(), events.end(),
-                                 [](const auto& a, const auto& b) { return a.frame < b.frame; }));
-}
-
 /// Calls sink(n, left, right) for every frame.
 template <class Sink>
 void render_frames(const InstrumentModel& model, InstrumentState& state,
                    std::span<const InstrumentEvent> events, std::span<double* const> strings,
                    std::size_t frames, Sink sink) {
-    check(model, state, events);
+    JAWARI_ASSERT(state.strings.size() == model.strings.size());
     const double smoothing = follow_share(model, 1, gain_follow_s);
     std::size_t next = 0;
     Run run;
