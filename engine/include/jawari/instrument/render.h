@@ -21,13 +21,11 @@ struct InstrumentOutput {
 };
 
 /// Renders `frames` samples. Sample n is the sound at the end of the block's frame n, so that the first
-/// sample that a note changes is the one at its event's offset. Events must be in order of their offsets; an
-/// event at or past `frames` is applied when the block is done, as if at the start of the next. The samples
-/// do not depend on how frames are grouped into blocks. Events with a field out of range (or not finite) are
+/// sample that a note changes is the one at its event's offset. Events come in the order of their offsets;
+/// one with a smaller offset than the event in front of it takes effect together with that event. An event at
+/// or past `frames` is applied when the block is done, as if at the start of the next. The samples do not
+/// depend on how frames are grouped into blocks. Events with a field out of range (or not finite) are
 /// ignored.
-///
-/// *Order.* Events are in the order of their frames; one whose frame is before that of the event in front of
-/// it takes effect together with that event.
 ///
 /// *Which string*, PlayMode::Keyboard. A key already held on the same channel is excited again on its string.
 /// Else, of the strings that have the note: one without a held note, with the lowest fret; if all are held,
