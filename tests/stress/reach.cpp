@@ -12,11 +12,11 @@ double square(double x) {
     return x * x;
 }
 
+}  // namespace
+
 double lag_of(const StringModel& model) {
     return model.shape->scheme == Scheme::Exact ? model.shape->step_s / 2 : 0.0;
 }
-
-}  // namespace
 
 Reach reach_of(const StringModel& model, std::span<const double> row) {
     const double lag = lag_of(model);

@@ -21,6 +21,9 @@ struct Reach {
 
 Reach reach_of(const StringModel& model, std::span<const double> row);
 
+/// The lag of H above [s].
+double lag_of(const StringModel& model);
+
 /// reach sqrt(H); infinite where reach is, whatever H.
 double bound_of(double reach, double energy_J);
 

@@ -28,10 +28,6 @@ double answer_of(const StringModel& model, std::span<const double> row) {
     return model.shape->step_s * model.shape->theta * sum;
 }
 
-double lag_of(const StringModel& model) {
-    return model.shape->scheme == Scheme::Exact ? model.shape->step_s / 2 : 0.0;
-}
-
 /// Contacts that move the string in different ways: fewer than modes, and half the shortest wave apart.
 bool has_independent_contacts(const StringModel& model) {
     std::vector<double> places = model.shape->contact_position;
