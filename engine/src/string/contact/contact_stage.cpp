@@ -6,6 +6,7 @@
 #include "jawari/detail/lcp.h"
 #include "string/contact/impact_law.h"
 #include "string/kernels/mode_sums.h"
+#include "string/kernels/response_sums.h"
 #include "string/model/contact_response.h"
 
 namespace jawari {
@@ -175,12 +176,22 @@ void accept_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
         contact.gap[c] = contact.gap_free[c];
     }
     const ContactOperator A = compliance_of(model);
+    std::size_t impulses = 0;
     for (const auto active : contact.candidates) {
-        const double impulse = contact.impulse[active];
-        if (impulse <= 0) continue;
-        contact.frame_impulse[active] += impulse;
-        state.counters.impulses += 1;
-        for (const auto c : contact.near) contact.gap[c] += A(active, c) * impulse;
+        if (contact.impulse[active] <= 0) continue;
+        contact.frame_impulse[active] += contact.impulse[active];
+        impulses += 1;
+    }
+    state.counters.impulses += impulses;
+    if (impulses > largest_factor) {
+        kernels::add_responses(A, contact.candidates.span(), contact.impulse.data(), contact.near.span(),
+                               contact.gap.data());
+    } else {
+        for (const auto active : contact.candidates) {
+            const double impulse = contact.impulse[active];
+            if (impulse <= 0) continue;
+            for (const auto c : contact.near) contact.gap[c] += A(active, c) * impulse;
+        }
     }
     state.counters.candidates += contact.candidates.size();
     for (const auto c : contact.near)

@@ -192,6 +192,7 @@ void reset(const StringModel& model, StringState& state) noexcept {
     state.leaves_obstacles = false;
     state.certificate.bounds.strongest_speed = 0;
     state.certificate.bounds.strongest_extent = 0;
+    state.near_frame.crowded = false;
     place_obstacles(model, state.contact);
     notice_change(model, state);
     state.counters = {};

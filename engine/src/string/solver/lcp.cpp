@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "string/solver/projected_gradients.h"
+
 namespace jawari {
 namespace {
 
@@ -64,7 +66,10 @@ void gather_column(const Problem& p, std::size_t contact, AlignedVector<double>&
 bool append_active(const Problem& p, std::size_t contact) {
     LcpWorkspace& work = p.work;
     work.repeated = 0;
-    if (work.active_count == work.capacity) return false;
+    if (work.active_count == work.capacity) {
+        work.full = true;
+        return false;
+    }
     gather_column(p, contact, work.direction);
     auto row = p.vector(work.direction);
     p.factor().triangularView<Eigen::Lower>().solveInPlace(row);
@@ -310,16 +315,60 @@ double natural_residual(const Problem& p) {
     return worst;
 }
 
+/// Brings in violated contacts until there are none.
+LcpOutcome pivot(const Problem& p) {
+    LcpOutcome outcome;
+    const std::size_t bound = most_pivots(p.work.capacity);
+    std::size_t pivots_left = bound;
+    for (std::size_t entering = most_violated(p); entering != none && !p.work.full;
+         entering = most_violated(p)) {
+        if (pivots_left == 0 || !bring_in(p, entering, pivots_left)) {
+            outcome.finished = false;
+            break;
+        }
+        pivots_left -= std::min<std::size_t>(pivots_left, 1);
+        solve_and_thin(p);  // removes the rounding that the pivots have gathered
+        update_residual(p);
+    }
+    outcome.pivots = bound - pivots_left;
+    outcome.residual = natural_residual(p);
+    return outcome;
+}
+
+/// The impulses of a truncated solve are those of the active set.
+void keep_active_impulses(const Problem& p, LcpOutcome& outcome) {
+    for (const auto c : p.candidates) {
+        if (!is_active(p.work, c)) p.lambda[c] = 0;
+    }
+    update_residual(p);
+    outcome.residual = natural_residual(p);
+}
+
+/// Whether the guess alone has more impulses than the factor has room for.
+bool guess_is_large(const Problem& p) {
+    if (p.candidates.size() <= p.work.capacity) return false;
+    const auto positive = [&](std::uint32_t c) { return p.lambda[c] > 0; };
+    const auto count = std::count_if(p.candidates.begin(), p.candidates.end(), positive);
+    return static_cast<std::size_t>(count) > p.work.capacity;
+}
+
+LcpOutcome solve_large(const Problem& p) {
+    p.work.active_count = p.work.repeated = 0;
+    return solve_by_projected_gradients(p.A, p.r, p.candidates, p.tolerance, p.lambda, p.residual,
+                                        p.work.gradients);
+}
+
 }  // namespace
 
-LcpWorkspace make_lcp_workspace(std::size_t contacts, std::size_t largest_active_set) {
+LcpWorkspace make_lcp_workspace(std::size_t contacts, std::size_t factored, std::size_t gradient_rounds) {
     LcpWorkspace work;
-    work.capacity = std::min(contacts, largest_active_set);
+    work.capacity = std::min(contacts, factored);
     work.active.assign(work.capacity + 1, 0);
     work.factor.assign(work.capacity * work.capacity, 0.0);
     work.inverse.assign(std::min(work.capacity, largest_inverse) * largest_inverse, 0.0);
     work.solution.assign(work.capacity, 0.0);
     work.direction.assign(work.capacity, 0.0);
+    work.gradients = make_gradient_workspace(contacts > work.capacity ? contacts : 0, gradient_rounds);
     return work;
 }
 
@@ -339,32 +388,18 @@ LcpOutcome solve_lcp(const ContactOperator& A, std::span<const double> r,
     if (A.id == 0 || workspace.factored != A.id) workspace.active_count = workspace.repeated = 0;
     workspace.factored = A.id;
 
-    if (!last_set_holds(p)) predict(p);
-
     LcpOutcome outcome;
-    const std::size_t bound = most_pivots(workspace.capacity);
-    std::size_t pivots_left = bound;
-    for (std::size_t entering = most_violated(p); entering != none; entering = most_violated(p)) {
-        if (pivots_left == 0 || !bring_in(p, entering, pivots_left)) {
-            outcome.finished = false;
-            break;
-        }
-        pivots_left -= std::min<std::size_t>(pivots_left, 1);
-        solve_and_thin(p);  // removes the rounding that the pivots have gathered
-        update_residual(p);
+    workspace.full = guess_is_large(p);
+    if (!workspace.full) {
+        if (!last_set_holds(p)) predict(p);
+        outcome = pivot(p);
     }
-    outcome.pivots = bound - pivots_left;
-    outcome.residual = natural_residual(p);
+    const bool large = workspace.full;
+    if (large) outcome = solve_large(p);
     // Contradictory contacts whose pivot is just not recognised as dependent end with enormous impulses and a
     // poor residual.
     if (!(outcome.residual <= -tolerances.largest_residual * lowest)) outcome.finished = false;
-    if (!outcome.finished) {
-        for (const auto c : candidates) {
-            if (!is_active(workspace, c)) lambda[c] = 0;
-        }
-        update_residual(p);
-        outcome.residual = natural_residual(p);
-    }
+    if (!outcome.finished && !large) keep_active_impulses(p, outcome);
     return outcome;
 }
 
