@@ -2,8 +2,9 @@
 //     0 <= r + A lambda   perp   lambda >= 0,      A symmetric positive semidefinite.
 // Projected Gauss-Seidel predicts the active set; the active set is then solved exactly by the symmetric
 // principal pivoting method (Cottle, Pang, Stone, "The Linear Complementarity Problem", 1992, section 4.5),
-// which also handles coincident contacts. Active sets beyond `largest_factor` are found by projected
-// gradients (string/solver/projected_gradients.h).
+// which also handles coincident contacts. For active sets beyond `largest_factor` projected gradients come
+// first (string/solver/projected_gradients.h); where contacts are too nearly dependent for them, pivots
+// follow.
 #pragma once
 
 #include <cstddef>
@@ -93,20 +94,20 @@ struct GradientWorkspace {
 /// Room for `contacts` contacts.
 GradientWorkspace make_gradient_workspace(std::size_t contacts, std::size_t most_rounds);
 
-/// Storage for active sets of up to `capacity` contacts. The factor outlives a solve: the next one of the
-/// same operator keeps what its first guess has in common.
+/// Storage of solve_lcp(). The factor outlives a solve: the next one of the same operator keeps what its
+/// first guess has in common.
 struct LcpWorkspace {
-    std::size_t capacity = 0;
+    std::size_t capacity = 0;  ///< active contacts that are solved by the factor at first
+    std::size_t room = 0;      ///< active contacts that the factor has room for, >= capacity
     std::size_t active_count = 0;
     std::uint64_t factored = 0;  ///< id of the operator that the factor is of; 0: of none
     std::size_t repeated = 0;    ///< solves in a row that kept the active set
     AlignedVector<double>
         inverse;  ///< of A over a small active set that has been kept, rows largest_inverse apart
     std::vector<std::uint32_t> active;  ///< indices of the active contacts, in order of the factor's rows
-    AlignedVector<double>
-        factor;  ///< lower Cholesky factor of A over the active set, capacity x capacity, row-major
-    AlignedVector<double> solution;   ///< scratch, capacity
-    AlignedVector<double> direction;  ///< scratch, capacity
+    AlignedVector<double> factor;  ///< lower Cholesky factor of A over the active set, room x room, row-major
+    AlignedVector<double> solution;   ///< scratch, room
+    AlignedVector<double> direction;  ///< scratch, room
     bool full = false;                ///< scratch: the solve needs more than `capacity` active contacts
     GradientWorkspace gradients;      ///< for what is larger
 };
@@ -114,9 +115,15 @@ struct LcpWorkspace {
 /// Active sets up to this size get their inverse when they last: a product instead of two triangular solves.
 inline constexpr std::size_t largest_inverse = 32;
 
-/// Room for `contacts` contacts, of which a factor takes min(contacts, factored).
-LcpWorkspace make_lcp_workspace(std::size_t contacts, std::size_t factored = largest_factor,
-                                std::size_t gradient_rounds = most_gradient_rounds);
+/// Bounds of the stages of solve_lcp().
+struct LcpLimits {
+    std::size_t factored = largest_factor;     ///< active contacts above which projected gradients come first
+    std::size_t independent = largest_factor;  ///< active contacts that pivots may come to after those
+    std::size_t gradient_rounds = most_gradient_rounds;
+};
+
+/// Room for `contacts` contacts.
+LcpWorkspace make_lcp_workspace(std::size_t contacts, const LcpLimits& limits = {});
 
 struct LcpOutcome {
     bool finished = true;  ///< false: the bound on pivots or rounds was hit, lambda is feasible but not final

@@ -74,7 +74,7 @@ double steady_solve(const Sizes& n) {
 /// projected gradients where the factor has no room.
 double longest_solve(const Sizes& n) {
     const double factor = n.factored * square(n.factored) / 3;
-    const double rounds = 2 * (n.gradient_rounds + 2) * square(n.contacts);
+    const double rounds = n.gradient_rounds > 0 ? 2 * (n.gradient_rounds + 2) * square(n.contacts) : 0;
     return 2 * n.contacts * n.factored + rounds +
            n.pivots * (2 * factor + 4 * square(n.factored) + n.factored * n.contacts);
 }

@@ -36,7 +36,7 @@ std::optional<AlignedVector<double>> held_displacement(const StringModel& model,
     std::iota(candidates.begin(), candidates.end(), 0U);
     AlignedVector<double> force(model.shape->contact_stride, 0.0);
     AlignedVector<double> residual(model.shape->contact_stride, 0.0);
-    LcpWorkspace workspace = make_lcp_workspace(count, count);
+    LcpWorkspace workspace = make_lcp_workspace(count, {count, count, 0});
     const LcpOutcome outcome = solve_lcp(static_compliance, gap, candidates, force, residual, workspace);
     if (!outcome.finished) return {};
     for (std::size_t c = 0; c < count; ++c) {

@@ -1,47 +1,22 @@
 #include "jawari/detail/lcp.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "string/solver/active_set.h"
 #include "string/solver/projected_gradients.h"
 
 namespace jawari {
 namespace {
 
-constexpr SolverTolerances tolerances = factor_tolerances;
 constexpr int predictor_sweeps = 2;
-// Solves in a row with the same active set, after which its inverse is worth making.
-constexpr std::size_t lasting = 8;
 // Of nearly dependent contacts, rounding may come to this many times the tolerance.
 constexpr double largest_rounding = 1000;
 // Nothing is done about violations below this: their tolerance would underflow.
 constexpr double smallest_violation = 1e-280;
 
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using Factor = Eigen::Map<Matrix, Eigen::Aligned, Eigen::OuterStride<>>;
-using Vector = Eigen::Map<Eigen::VectorXd>;
-
-/// The problem and its workspace, so that the stages below read as sentences.
-struct Problem {
-    const ContactOperator& A;
-    std::span<const double> r;
-    std::span<const std::uint32_t> candidates;
-    std::span<double> lambda;
-    std::span<double> residual;
-    LcpWorkspace& work;
-    double tolerance = 0;  ///< violations below it are rounding
-
-    [[nodiscard]] double a(std::size_t i, std::size_t j) const { return A(i, j); }
-    [[nodiscard]] Factor factor() const {
-        const auto n = static_cast<Eigen::Index>(work.active_count);
-        return {work.factor.data(), n, n, Eigen::OuterStride<>(static_cast<Eigen::Index>(work.capacity))};
-    }
-    [[nodiscard]] Vector vector(AlignedVector<double>& storage) const {
-        return {storage.data(), static_cast<Eigen::Index>(work.active_count)};
-    }
-};
+using Problem = ActiveSetProblem;
 
 void predict_by_gauss_seidel(const Problem& p) {
     for (int sweep = 0; sweep < predictor_sweeps; ++sweep) {
@@ -56,133 +31,14 @@ void predict_by_gauss_seidel(const Problem& p) {
     }
 }
 
-/// direction <- column of A at the active contacts, row `contact`.
-void gather_column(const Problem& p, std::size_t contact, AlignedVector<double>& column) {
-    for (std::size_t i = 0; i < p.work.active_count; ++i) column[i] = p.a(contact, p.work.active[i]);
-}
-
-/// Appends a contact to the active set and a row to the factor; false if it depends on the active ones or
-/// there is no room.
-bool append_active(const Problem& p, std::size_t contact) {
-    LcpWorkspace& work = p.work;
-    work.repeated = 0;
-    if (work.active_count == work.capacity) {
-        work.full = true;
-        return false;
-    }
-    gather_column(p, contact, work.direction);
-    auto row = p.vector(work.direction);
-    p.factor().triangularView<Eigen::Lower>().solveInPlace(row);
-    const double pivot = p.a(contact, contact) - row.squaredNorm();
-    if (!(pivot > tolerances.dependent_pivot * p.a(contact, contact))) return false;
-    double* factor_row = work.factor.data() + work.active_count * work.capacity;
-    std::copy_n(work.direction.data(), work.active_count, factor_row);
-    factor_row[work.active_count] = std::sqrt(pivot);
-    work.active[work.active_count++] = static_cast<std::uint32_t>(contact);
-    return true;
-}
-
-/// Keeps the first `kept` active contacts and refactors those that follow in work.active up to `count`.
-void refactor_from(const Problem& p, std::size_t kept, std::size_t count) {
-    p.work.active_count = kept;
-    p.work.repeated = 0;
-    for (std::size_t i = kept; i < count; ++i) {
-        const auto contact = p.work.active[i];  // read before append_active writes at or before i
-        if (!append_active(p, contact)) p.lambda[contact] = 0;
-    }
-}
-
-void remove_active(const Problem& p, std::size_t position) {
-    LcpWorkspace& work = p.work;
-    work.repeated = 0;
-    const std::size_t count = work.active_count - 1;
-    std::copy(work.active.begin() + static_cast<std::ptrdiff_t>(position) + 1,
-              work.active.begin() + static_cast<std::ptrdiff_t>(work.active_count),
-              work.active.begin() + static_cast<std::ptrdiff_t>(position));
-    refactor_from(p, position, count);
-}
-
-void solve_with_factor(const Problem& p, AlignedVector<double>& storage) {
-    auto x = p.vector(storage);
-    const auto lower = p.factor();
-    lower.triangularView<Eigen::Lower>().solveInPlace(x);
-    lower.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
-}
-
-/// solution <- -A_FF^{-1} r_F
-void solve_active(const Problem& p) {
-    for (std::size_t i = 0; i < p.work.active_count; ++i) p.work.solution[i] = -p.r[p.work.active[i]];
-    solve_with_factor(p, p.work.solution);
-}
-
-using Inverse = Eigen::Map<Matrix, Eigen::Aligned, Eigen::OuterStride<largest_inverse>>;
-
-Inverse inverse_of_active(const Problem& p) {
-    const auto n = static_cast<Eigen::Index>(p.work.active_count);
-    return {p.work.inverse.data(), n, n};
-}
-
-/// When a small active set has lasted, its inverse is made; from then on it serves.
-void solve_kept_set(const Problem& p) {
-    LcpWorkspace& work = p.work;
-    work.repeated += 1;
-    if (work.repeated < lasting || work.active_count > largest_inverse) {
-        solve_active(p);
-        return;
-    }
-    Inverse inverse = inverse_of_active(p);
-    if (work.repeated == lasting) {
-        inverse.setIdentity();
-        p.factor().triangularView<Eigen::Lower>().solveInPlace(inverse);
-        p.factor().transpose().triangularView<Eigen::Upper>().solveInPlace(inverse);
-    }
-    for (std::size_t i = 0; i < work.active_count; ++i) work.direction[i] = -p.r[work.active[i]];
-    for (std::size_t i = 0; i < work.active_count; ++i) {
-        const double* row = work.inverse.data() + i * largest_inverse;
-        double sum = 0;
-        for (std::size_t j = 0; j < work.active_count; ++j) sum += row[j] * work.direction[j];
-        work.solution[i] = sum;
-    }
-}
-
 /// Solves for the active impulses exactly; contacts whose impulse is not positive leave until all are.
 void solve_and_thin(const Problem& p) {
     LcpWorkspace& work = p.work;
     while (work.active_count > 0) {
         solve_active(p);
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < work.active_count; ++i) {
-            const auto c = work.active[i];
-            if (work.solution[i] > 0) {
-                work.active[kept++] = c;
-            } else {
-                p.lambda[c] = 0;
-            }
-        }
-        if (kept == work.active_count) break;
-        refactor_from(p, 0, kept);
+        if (!thin_active(p)) break;
     }
     for (std::size_t i = 0; i < work.active_count; ++i) p.lambda[work.active[i]] = work.solution[i];
-}
-
-/// The active set becomes the candidates with a positive impulse; the factor's rows that agree stay.
-void adopt_active_set(const Problem& p) {
-    LcpWorkspace& work = p.work;
-    std::size_t agreed = 0;
-    bool agrees = true;
-    for (const auto c : p.candidates) {
-        if (p.lambda[c] <= 0) continue;
-        agrees = agrees && agreed < work.active_count && work.active[agreed] == c;
-        if (agrees) {
-            agreed += 1;
-            continue;
-        }
-        work.active_count = agreed;
-        if (!append_active(p, c)) p.lambda[c] = 0;
-        agreed = work.active_count;
-    }
-    if (agreed < work.active_count) work.repeated = 0;
-    work.active_count = agreed;
 }
 
 void update_residual(const Problem& p) {
@@ -248,7 +104,7 @@ bool last_set_holds(const Problem& p) {
     if (work.active_count == 0) return false;
     solve_kept_set(p);
     if (!adopt_solution(p)) return false;
-    if (work.repeated >= lasting && !active_gaps_close(p)) {
+    if (uses_inverse(p) && !active_gaps_close(p)) {
         // Contacts that nearly coincide: an explicit inverse loses what the factor keeps.
         solve_active(p);
         if (!adopt_solution(p)) return false;
@@ -261,11 +117,6 @@ void predict(const Problem& p) {
     adopt_active_set(p);
     solve_and_thin(p);
     update_residual(p);
-}
-
-bool is_active(const LcpWorkspace& work, std::size_t contact) {
-    const auto end = work.active.begin() + static_cast<std::ptrdiff_t>(work.active_count);
-    return std::find(work.active.begin(), end, contact) != end;
 }
 
 /// Raises the entering contact's impulse until its own residual is zero; active contacts that would turn
@@ -282,7 +133,7 @@ bool bring_in(const Problem& p, std::size_t entering, std::size_t& pivots_left) 
         for (std::size_t i = 0; i < work.active_count; ++i) {
             curvature -= work.direction[i] * p.a(entering, work.active[i]);
         }
-        const bool dependent = !(curvature > tolerances.dependent_pivot * p.a(entering, entering));
+        const bool dependent = !(curvature > factor_tolerances.dependent_pivot * p.a(entering, entering));
         double length = dependent ? std::numeric_limits<double>::infinity() : -violation / curvature;
         std::size_t blocking = work.active_count;
         for (std::size_t i = 0; i < work.active_count; ++i) {
@@ -344,7 +195,7 @@ void keep_active_impulses(const Problem& p, LcpOutcome& outcome) {
     outcome.residual = natural_residual(p);
 }
 
-/// Whether the guess alone has more impulses than the factor has room for.
+/// Whether the guess alone has more impulses than a small factor has room for.
 bool guess_is_large(const Problem& p) {
     if (p.candidates.size() <= p.work.capacity) return false;
     const auto positive = [&](std::uint32_t c) { return p.lambda[c] > 0; };
@@ -352,23 +203,53 @@ bool guess_is_large(const Problem& p) {
     return static_cast<std::size_t>(count) > p.work.capacity;
 }
 
-LcpOutcome solve_large(const Problem& p) {
-    p.work.active_count = p.work.repeated = 0;
-    return solve_by_projected_gradients(p.A, p.r, p.candidates, p.tolerance, p.lambda, p.residual,
-                                        p.work.gradients);
+/// By pivots from the guess, with all the room that there is.
+LcpOutcome pivot_large(const Problem& p) {
+    p.work.full = false;
+    adopt_active_set(p);
+    solve_and_thin(p);
+    update_residual(p);
+    LcpOutcome outcome = pivot(p);
+    outcome.finished = outcome.finished && !p.work.full;
+    return outcome;
+}
+
+/// Active sets beyond the small factor: by the last one's factor if that was needed and still holds; by
+/// projected gradients; and where contacts are so nearly dependent that those do not get there, by pivots.
+LcpOutcome solve_large(const Problem& p, double largest_residual) {
+    LcpWorkspace& work = p.work;
+    const std::size_t small = work.capacity;
+    const bool factored = work.active_count > small;
+    work.capacity = work.room;
+    LcpOutcome outcome;
+    if (factored && last_set_holds(p)) {
+        outcome.residual = natural_residual(p);
+    } else {
+        if (!factored) {
+            work.active_count = work.repeated = 0;
+            outcome = solve_by_projected_gradients(p.A, p.r, p.candidates, p.tolerance, p.lambda, p.residual,
+                                                   work.gradients);
+        }
+        const std::size_t rounds = outcome.pivots;
+        if (factored || !(outcome.residual <= largest_residual)) outcome = pivot_large(p);
+        outcome.pivots += rounds;
+    }
+    work.capacity = small;
+    return outcome;
 }
 
 }  // namespace
 
-LcpWorkspace make_lcp_workspace(std::size_t contacts, std::size_t factored, std::size_t gradient_rounds) {
+LcpWorkspace make_lcp_workspace(std::size_t contacts, const LcpLimits& limits) {
     LcpWorkspace work;
-    work.capacity = std::min(contacts, factored);
-    work.active.assign(work.capacity + 1, 0);
-    work.factor.assign(work.capacity * work.capacity, 0.0);
-    work.inverse.assign(std::min(work.capacity, largest_inverse) * largest_inverse, 0.0);
-    work.solution.assign(work.capacity, 0.0);
-    work.direction.assign(work.capacity, 0.0);
-    work.gradients = make_gradient_workspace(contacts > work.capacity ? contacts : 0, gradient_rounds);
+    work.capacity = std::min(contacts, limits.factored);
+    work.room = std::max(work.capacity, std::min(contacts, limits.independent));
+    work.active.assign(work.room + 1, 0);
+    work.factor.assign(work.room * work.room, 0.0);
+    work.inverse.assign(std::min(work.room, largest_inverse) * largest_inverse, 0.0);
+    work.solution.assign(work.room, 0.0);
+    work.direction.assign(work.room, 0.0);
+    work.gradients = make_gradient_workspace(contacts > work.capacity ? contacts : 0, limits.gradient_rounds);
     return work;
 }
 
@@ -378,7 +259,7 @@ LcpOutcome solve_lcp(const ContactOperator& A, std::span<const double> r,
     Problem p{A, r, candidates, lambda, residual, workspace};
     double lowest = 0;
     for (const auto c : candidates) lowest = std::min(lowest, r[c]);
-    p.tolerance = -tolerances.rounding * lowest;
+    p.tolerance = -factor_tolerances.rounding * lowest;
     if (-lowest < smallest_violation) {
         for (const auto c : candidates) lambda[c] = 0;
         for (const auto c : candidates) residual[c] = r[c];
@@ -394,12 +275,11 @@ LcpOutcome solve_lcp(const ContactOperator& A, std::span<const double> r,
         if (!last_set_holds(p)) predict(p);
         outcome = pivot(p);
     }
-    const bool large = workspace.full;
-    if (large) outcome = solve_large(p);
+    if (workspace.full) outcome = solve_large(p, -table_tolerances.largest_residual * lowest);
     // Contradictory contacts whose pivot is just not recognised as dependent end with enormous impulses and a
     // poor residual.
-    if (!(outcome.residual <= -tolerances.largest_residual * lowest)) outcome.finished = false;
-    if (!outcome.finished && !large) keep_active_impulses(p, outcome);
+    if (!(outcome.residual <= -factor_tolerances.largest_residual * lowest)) outcome.finished = false;
+    if (!outcome.finished) keep_active_impulses(p, outcome);
     return outcome;
 }
 

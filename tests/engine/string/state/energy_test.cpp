@@ -173,7 +173,7 @@ TEST_P(TruncatedLaw, TruncatedSolvesStayPassiveAndAreCounted) {
             const SceneDescription scene = random.scene(GetParam(), 8000, 4e6);
             const StringModel model = test::compiled_string(scene);
             StringState state = make_string_state(model, Metering::Step);
-            state.lcp = make_lcp_workspace(model.shape->contact_count, capacity, 1);
+            state.lcp = make_lcp_workspace(model.shape->contact_count, {capacity, capacity, 1});
             for (int n = 0; n < 1500; ++n) step(model, state);
             EXPECT_LE(state.energy.worst_rise, 1e-13 * state.energy.initial) << "seed " << seed;
             EXPECT_LE(state.energy.worst_imbalance, 1e-13 * state.energy.initial) << "seed " << seed;
