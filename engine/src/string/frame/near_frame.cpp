@@ -16,6 +16,9 @@
 namespace jawari {
 namespace {
 
+/// What beginning a row of responses costs, in its operations.
+constexpr double row_overhead = 16;
+
 /// force_rows and force_impulses <- the excitation of the coming frame, for a run over modes of unit
 /// mobility.
 void drive_by_excitation(const StringModel& model, StringState& state) {
@@ -205,7 +208,8 @@ bool is_crowded(const StringModel& model, const StringState& state, std::uint64_
     const auto steps = static_cast<double>(model.shape->steps_per_frame);
     const auto near = static_cast<double>(state.contact.near.size());
     const auto count = static_cast<double>(impulses);
-    const double spread = count * near * steps / 2;
+    const double spread =
+        count * near * (steps / 2 + (model.tuning.step_response.empty() ? row_overhead : 0));
     const double stepped = static_cast<double>(model.shape->stride) * (near * steps + count);
     return spread > stepped;
 }

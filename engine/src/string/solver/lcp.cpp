@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "string/kernels/response_sums.h"
 #include "string/solver/active_set.h"
 #include "string/solver/projected_gradients.h"
 
@@ -11,6 +12,8 @@ namespace jawari {
 namespace {
 
 constexpr int predictor_sweeps = 2;
+// Up to so many active contacts their responses are summed one by one.
+constexpr std::size_t few_sources = 32;
 // Of nearly dependent contacts, rounding may come to this many times the tolerance.
 constexpr double largest_rounding = 1000;
 // Nothing is done about violations below this: their tolerance would underflow.
@@ -43,8 +46,12 @@ void solve_and_thin(const Problem& p) {
 
 void update_residual(const Problem& p) {
     for (const auto c : p.candidates) p.residual[c] = p.r[c];
-    for (std::size_t i = 0; i < p.work.active_count; ++i) {
-        const auto f = p.work.active[i];
+    const std::span<const std::uint32_t> active(p.work.active.data(), p.work.active_count);
+    if (active.size() > few_sources) {
+        kernels::add_responses(p.A, active, p.lambda.data(), p.candidates, p.residual.data());
+        return;
+    }
+    for (const auto f : active) {
         const double impulse = p.lambda[f];
         if (p.A.node == nullptr) {
             const double* row = p.A.values + f * p.A.stride;
