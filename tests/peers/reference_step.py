@@ -94,4 +94,4 @@ def _target(law, scheme, theta, e, gap, gap_before, approach):
         return np.where(gap <= gap_before, newton, gap_before)
     if law == "signorini":
         return np.zeros_like(gap)
-    return np.minimum(-e * gap_before, gap_before)
+    return -e * gap_before

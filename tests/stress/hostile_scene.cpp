@@ -5,6 +5,7 @@
 
 #include "dice.h"
 #include "hostile_string.h"
+#include "string/contact/impact_law.h"
 
 namespace jawari::stress {
 namespace {
@@ -53,11 +54,11 @@ void choose_scheme(Dice& dice, SceneDescription& scene) {
     scene.theta = dice.chance(0.5) ? dice.pick({0.5, 1}) : dice.uniform(0.5, 1);
 }
 
-/// `newton` may inject energy: only the balance of each step tells by how much.
+/// `newton` and `paoli-schatzman` may inject energy: only the balance of each step tells by how much.
 void choose_playing(Dice& dice, HostileScene& hostile) {
     hostile.forces = dice.chance(0.4);
     hostile.moves = dice.chance(0.25);
-    const bool of_steps = hostile.moves || hostile.description.law == ImpactLaw::Newton || dice.chance(0.25);
+    const bool of_steps = hostile.moves || !is_passive(hostile.description.law) || dice.chance(0.25);
     hostile.metering = of_steps ? Metering::Step : dice.chance(0.5) ? Metering::Frame : Metering::Off;
     if (dice.chance(0.8)) return;
     hostile.skipping = {dice.chance(0.5), dice.chance(0.5), dice.chance(0.5), dice.chance(0.5),

@@ -8,6 +8,7 @@
 #include "invariants.h"
 #include "jawari/scene/energy.h"
 #include "reach.h"
+#include "string/contact/impact_law.h"
 
 namespace jawari::stress {
 namespace {
@@ -72,7 +73,7 @@ InstrumentWatch::InstrumentWatch(const InstrumentModel& model, const InstrumentD
                                  bool frame_by_frame)
     : model_(model),
       frame_by_frame_(frame_by_frame),
-      passive_(description.law != ImpactLaw::Newton || !description.contacts),
+      passive_(is_passive(description.law) || !description.contacts),
       never_penetrates_(description.law == ImpactLaw::Signorini) {
     contacts_.push_back(contact_reaches(model.strings));
     for (const auto& lower : model.lower) contacts_.push_back(contact_reaches(lower));

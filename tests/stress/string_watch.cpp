@@ -6,6 +6,7 @@
 
 #include "invariants.h"
 #include "jawari/scene/energy.h"
+#include "string/contact/impact_law.h"
 
 namespace jawari::stress {
 namespace {
@@ -82,7 +83,7 @@ StringWatch::StringWatch(const StringModel& model, const StringState& start, std
         probes_.push_back(
             reach_of(model, {model.shape->probe_rows.data() + p * model.shape->stride, model.shape->stride}));
     step_rounding_ = step_rounding(model);
-    may_be_unsolvable_ = model.shape->contact_count > limits::active_contacts || may_contradict(model);
+    may_be_unsolvable_ = model.shape->contact_count > largest_factor || may_contradict(model);
     highest_ = energy(model, start);
 }
 
@@ -173,7 +174,7 @@ void StringWatch::end_block(const StringState& state, std::span<const std::span<
 
 bool StringWatch::has_burst() const {
     const bool may_grow =
-        model_.shape->law == ImpactLaw::Newton || model_.shape->scheme != Scheme::Exact || rise_ > 0;
+        !is_passive(model_.shape->law) || model_.shape->scheme != Scheme::Exact || rise_ > 0;
     return may_grow && !(highest_ <= largest_energy_J);
 }
 
@@ -184,7 +185,7 @@ void StringWatch::check_energy(const StringState& state, Judge& judge) const {
         const double allowed = of_step + kick_rounding(model_, strongest_.kicks, highest_) +
                                work_rounding(model_, strongest_.impulses_Ns, rise_);
         check_balance(judge, state.energy, allowed, name_);
-        const bool passive = model_.shape->scheme == Scheme::Exact && model_.shape->law != ImpactLaw::Newton;
+        const bool passive = model_.shape->scheme == Scheme::Exact && is_passive(model_.shape->law);
         const double of_gaps = work_rounding(model_, strongest_.impulses_Ns, gap_size) +
                                residual_work(model_, strongest_.impulses_Ns, state.counters.worst_residual_m);
         if (passive) check_rise_of_step(judge, state.energy, allowed + of_gaps, name_);

@@ -82,8 +82,8 @@ struct StringShape {
     /// S^T where frames are short (short_frame.h), stride x contact_stride; else empty.
     AlignedVector<double> contact_columns;
     std::vector<double> contact_height;  ///< b_c = +-h_c [m]: gap = S q - b
-    /// What rounding may leave of a gap [m], the largest over the contacts: `signorini` and `paoli-schatzman`
-    /// lift a contact that lies inside by this much a step (docs/engine/stability.md, "Gaps").
+    /// What rounding may leave of a gap [m], the largest over the contacts: `signorini` lifts
+    /// a contact that lies inside by this much a step (docs/engine/stability.md, "Gaps").
     double gap_rounding_m = 0;
     std::vector<double> contact_restitution;  ///< e_c
     std::vector<double> contact_position;     ///< x_c [m]
@@ -94,7 +94,8 @@ struct StringShape {
     /// Made of the compliance's numbers: strings with the same id have the same operator. Not 0, which stands
     /// for none.
     std::uint64_t compliance_id = 0;
-    std::size_t grid_intervals = 0;        ///< M if all contacts lie at x = j L/M below the string, else 0
+    double compliance_norm = 0;      ///< bound of the norm of A_ij/sqrt(A_ii A_jj); ContactOperator::norm
+    std::size_t grid_intervals = 0;  ///< M if all contacts lie at x = j L/M below the string, else 0
     std::vector<std::uint32_t> grid_node;  ///< j of each contact, empty without a grid
     std::vector<std::ptrdiff_t>
         contact_of_description;       ///< model index of each described contact, -1 if dropped

@@ -187,6 +187,10 @@ struct FrameStart {
 
 /// Scratch of a frame solved in contact space, near_frame.h; contacts x steps, rows response_stride apart.
 struct NearState {
+    // -- state
+    /// Whether the last near frame had so many impulses that steps of all modes are cheaper; pass_near()
+    bool crowded = false;
+    // -- scratch
     AlignedVector<double>
         rates_free;  ///< S v of free flight at each step, in the order of ContactState::near
     AlignedVector<double>

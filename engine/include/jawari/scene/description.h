@@ -145,7 +145,7 @@ enum class ImpactLaw {
     Newton,         ///< Newton's law of restitution at velocity level (Moreau-Jean)
     Passive,        ///< Newton's law without restitution for a contact that already separates
     Signorini,      ///< no penetration at position level; restitution is ignored
-    PaoliSchatzman  ///< restitution at position level over two steps (Paoli and Schatzman)
+    PaoliSchatzman  ///< y+ >= -e y_before (Paoli and Schatzman 2002); may raise the energy
 };
 
 /// The law's name in scene files: newton, passive, signorini or paoli-schatzman. Static storage. Threads:
@@ -171,7 +171,6 @@ inline constexpr std::size_t modes = 8192;             ///< per string
 inline constexpr std::size_t contacts = 4096;          ///< per string
 inline constexpr std::size_t strings = 256;            ///< per scene
 inline constexpr std::size_t probes = 256;             ///< per string
-inline constexpr std::size_t active_contacts = 128;    ///< simultaneous positive impulses per string and step
 inline constexpr double min_rate_hz = 1;               ///< of output and contact [Hz]
 inline constexpr double max_rate_hz = 1e9;             ///< of output and contact [Hz]
 inline constexpr std::size_t steps_per_frame = 65536;  ///< contact steps in an output frame

@@ -96,7 +96,7 @@ bool is_clear(const StringModel& model, StringState& state) {
 /// odometers that serve once.
 bool tests_directly(const StringModel& model, const StringState& state) {
     return state.certificate.struck && model.shape->contact_count <= contacts_with_own_bounds &&
-           !looks_ahead(model.shape->law);
+           lookahead(model) == 0;
 }
 
 /// speed_g = sum_k envelope_g r_k, or 0 where odometers are not needed. Resets the odometers and shifts every

@@ -22,8 +22,10 @@ inline double frame_length(const StringModel& model) {
     return model.shape->step_s * static_cast<double>(model.shape->steps_per_frame);
 }
 
-/// How far ahead of the step's end the law looks for candidates [s].
+/// How far ahead of a frame's end, or back before its start, the law looks for candidates [s]: a gap that is
+/// further from closing than its rate covers in that time is none (docs/engine/certificate.md, section 3).
 inline double lookahead(const StringModel& model) {
+    if (looks_back(model.shape->law)) return model.shape->step_s;
     return looks_ahead(model.shape->law) ? model.shape->step_s / 2 : 0.0;
 }
 

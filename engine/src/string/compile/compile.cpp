@@ -162,7 +162,7 @@ bool set_initial_state(StringDraft& draft, const InitialCondition& initial) {
     const TrueState state = described_state(shape, initial);
     const auto held = held_displacement(draft.model, state.displacement);
     const AlignedVector<double> flat(shape.stride, 0.0);
-    const auto rest = held_displacement(draft.model, flat);
+    const auto rest = state.displacement == flat ? held : held_displacement(draft.model, flat);
     if (!held || !rest) return false;
     const bool is_held = std::any_of(held->begin(), held->end(), [](double q) { return q != 0; });
     shape.initial_displacement = state.displacement;

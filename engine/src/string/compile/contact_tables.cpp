@@ -4,12 +4,14 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "string/broad_phase/gap_bounds.h"
 #include "string/contact/impact_law.h"
 #include "string/kernels/mode_run.h"
 #include "string/kernels/mode_sums.h"
 #include "string/model/contact_response.h"
+#include "string/solver/projected_gradients.h"
 
 namespace jawari {
 namespace {
@@ -54,16 +56,29 @@ void cosine_table(const StringShape& shape, std::size_t intervals, const Aligned
     }
 }
 
-void set_dense_compliance(StringShape& shape) {
-    shape.compliance.assign(shape.contact_count * shape.contact_stride, 0.0);
+AlignedVector<double> dense_operator(const StringShape& shape, double scale,
+                                     const AlignedVector<double>& weights) {
+    AlignedVector<double> values(shape.contact_count * shape.contact_stride, 0.0);
     AlignedVector<double> response(shape.stride);
     for (std::size_t c = 0; c < shape.contact_count; ++c) {
         std::fill(response.begin(), response.end(), 0.0);
-        kernels::add_impulse(shape.stride, shape.step_s * shape.theta, shape.mobility.data(),
+        kernels::add_impulse(shape.stride, scale, weights.data(),
                              shape.contact_rows.data() + c * shape.stride, response.data());
         kernels::row_products(shape.contact_count, shape.stride, shape.stride, shape.contact_rows.data(),
-                              response.data(), shape.compliance.data() + c * shape.contact_stride);
+                              response.data(), values.data() + c * shape.contact_stride);
     }
+    return values;
+}
+
+AlignedVector<double> grid_operator(const StringShape& shape, double scale,
+                                    const AlignedVector<double>& weights) {
+    AlignedVector<double> amplitudes(shape.stride);
+    for (std::size_t k = 0; k < shape.stride; ++k) amplitudes[k] = scale * weights[k];
+    const std::size_t period = 2 * shape.grid_intervals;
+    AlignedVector<double> values(period + grid_repeats, 0.0);
+    cosine_table(shape, shape.grid_intervals, amplitudes, 1, values.data(), 1);
+    for (std::size_t d = period; d < values.size(); ++d) values[d] = values[d - period];
+    return values;
 }
 
 /// FNV-1a over the numbers that make the operator, a word at a time.
@@ -165,29 +180,32 @@ double largest_push(const StringModel& model, std::size_t struck, std::size_t co
     return -lowest;
 }
 
-void set_compliance_values(StringShape& shape) {
-    shape.contact_stride = padded(shape.contact_count);
+void set_grid(StringShape& shape) {
     shape.grid_intervals = grid_intervals(shape);
-    if (shape.grid_intervals == 0) {
-        set_dense_compliance(shape);
-        return;
-    }
+    if (shape.grid_intervals == 0) return;
     for (const double x : shape.contact_position) {
         const double node = std::round(x / shape.length_m * static_cast<double>(shape.grid_intervals));
         shape.grid_node.push_back(static_cast<std::uint32_t>(node));
     }
-    AlignedVector<double> amplitudes(shape.stride);
-    for (std::size_t k = 0; k < shape.stride; ++k)
-        amplitudes[k] = shape.step_s * shape.theta * shape.mobility[k];
-    shape.compliance.assign(2 * shape.grid_intervals, 0.0);
-    cosine_table(shape, shape.grid_intervals, amplitudes, 1, shape.compliance.data(), 1);
 }
 
 }  // namespace
 
+AlignedVector<double> contact_operator(const StringShape& shape, double scale,
+                                       const AlignedVector<double>& weights) {
+    return shape.grid_intervals == 0 ? dense_operator(shape, scale, weights)
+                                     : grid_operator(shape, scale, weights);
+}
+
 void set_compliance(StringShape& shape) {
-    set_compliance_values(shape);
+    shape.contact_stride = padded(shape.contact_count);
+    set_grid(shape);
+    shape.compliance = contact_operator(shape, shape.step_s * shape.theta, shape.mobility);
     shape.compliance_id = identity_of(shape);
+    if (shape.contact_count <= largest_factor) return;
+    std::vector<std::uint32_t> contacts(shape.contact_count);
+    std::iota(contacts.begin(), contacts.end(), 0U);
+    shape.compliance_norm = bound_of_norm(compliance_of(shape), contacts);
 }
 
 void set_responses(StringDraft& draft) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "jawari/detail/aligned.h"
 #include "string/compile/string_draft.h"
 
 namespace jawari {
@@ -17,6 +18,11 @@ inline constexpr std::size_t longest_step_response = 16;
 
 /// Finds out whether the contacts lie on a uniform grid, then fills the compliance.
 void set_compliance(StringShape& shape);
+
+/// S diag(scale weights) S^T over the contacts, a matrix or a table by grid distance as the compliance is;
+/// needs set_compliance().
+AlignedVector<double> contact_operator(const StringShape& shape, double scale,
+                                       const AlignedVector<double>& weights);
 
 /// Fills the responses, if they are not too large, and with them how far impulses push other contacts within
 /// a frame.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/square.h"
 #include "jawari/detail/lcp.h"
 #include "string/broad_phase/gap_bounds.h"
 #include "string/frame/short_frame.h"
@@ -17,22 +18,24 @@ constexpr double flight_operations = 4;
 constexpr double bound_operations = 17;
 
 struct Sizes {
-    double modes, contacts, padded_contacts, active, groups, steps;
-    double pivots, table_pivots;  ///< at most
+    double modes, contacts, padded_contacts, groups, steps;
+    double factored;                               ///< active contacts that solve_lcp() factors, at most
+    double pivots, table_pivots, gradient_rounds;  ///< at most
 };
 
 Sizes counted_sizes(const StringModel& model) {
     const std::size_t groups =
         model.shape->certificate.group_begin.empty() ? 0 : model.shape->certificate.group_begin.size() - 1;
-    const std::size_t active = std::min(model.shape->contact_count, limits::active_contacts);
+    const std::size_t factored = std::min(model.shape->contact_count, largest_factor);
     return {static_cast<double>(model.shape->stride),
             static_cast<double>(model.shape->contact_count),
             static_cast<double>(model.shape->contact_stride),
-            static_cast<double>(active),
             static_cast<double>(groups),
             static_cast<double>(model.shape->steps_per_frame),
-            static_cast<double>(most_pivots(active)),
-            static_cast<double>(most_table_pivots(model.shape->contact_count))};
+            static_cast<double>(factored),
+            static_cast<double>(most_pivots(factored)),
+            static_cast<double>(most_table_pivots(model.shape->contact_count)),
+            static_cast<double>(model.shape->contact_count > largest_factor ? most_gradient_rounds : 0)};
 }
 
 /// Bounds afresh, gaps at both ends of the frame, and the flight between them.
@@ -54,49 +57,51 @@ double free_run(const Sizes& n) {
 
 /// The modes under the frame's impulses.
 double impulse_run(const Sizes& n) {
-    return n.modes * (n.steps * (step_operations + n.active) + 4);
+    return n.modes * (n.steps * (step_operations + n.contacts) + 4);
 }
 
 /// Impulses of one step applied to the gaps of the frame's later steps, and to those of the step itself.
 double spread(const Sizes& n) {
-    return n.active * n.contacts * (n.steps * (n.steps + 1) / 2 + n.steps);
+    return n.contacts * n.contacts * (n.steps * (n.steps + 1) / 2 + n.steps);
 }
 
 /// A solve whose active set is the last one's: two triangular solves and the residuals.
 double steady_solve(const Sizes& n) {
-    return n.active * (n.active + 1) + n.active * n.contacts;
+    return n.factored * (n.factored + 1) + square(n.contacts);
 }
 
-/// All pivots that solve_lcp() may take, each with a factor anew in the worst case.
+/// All pivots that solve_lcp() may take, each with a factor anew in the worst case, and all rounds of
+/// projected gradients where the factor has no room.
 double longest_solve(const Sizes& n) {
-    const double factor = n.active * n.active * n.active / 3;
-    return 2 * n.contacts * n.active +
-           n.pivots * (2 * factor + 4 * n.active * n.active + n.active * n.contacts);
+    const double factor = n.factored * square(n.factored) / 3;
+    const double rounds = n.gradient_rounds > 0 ? 2 * (n.gradient_rounds + 2) * square(n.contacts) : 0;
+    return 2 * n.contacts * n.factored + rounds +
+           n.pivots * (2 * factor + 4 * square(n.factored) + n.factored * n.contacts);
 }
 
 /// All modes through a short frame, the rates of all contacts at each step, and the response to all impulses
 /// (short_frame_modes.cpp).
 double short_run(const Sizes& n) {
     const double free = n.modes * n.steps * (step_operations + n.padded_contacts);
-    return free + n.modes * (n.steps * (step_operations + n.active) + 2);
+    return free + n.modes * (n.steps * (step_operations + n.contacts) + 2);
 }
 
 /// Impulses of the steps of a short frame applied to the rates of all later ones, and to the gaps of the step
 /// itself once more after a correction (short_frame_contacts.cpp).
 double short_spread(const Sizes& n) {
-    return n.active * n.padded_contacts * (n.steps * (n.steps - 1) / 2 + 2 * n.steps);
+    return n.contacts * n.padded_contacts * (n.steps * (n.steps - 1) / 2 + 2 * n.steps);
 }
 
 /// A step of a short frame whose active set is the last one's: the table's product and its correction.
 double short_solve(const Sizes& n) {
-    return n.padded_contacts * (2 * n.active + 1);
+    return n.padded_contacts * (2 * n.contacts + 1);
 }
 
 /// All pivots that a table may take, each with a product, and the general solver where they fail.
 double longest_short_solve(const Sizes& n) {
     const double table = n.contacts * n.padded_contacts;
-    const double remake = table * n.active;
-    return remake + n.table_pivots * (table + n.active * n.padded_contacts) + longest_solve(n);
+    const double remake = table * n.contacts;
+    return remake + n.table_pivots * (table + n.contacts * n.padded_contacts) + longest_solve(n);
 }
 
 /// Gaps and rates at the frame's start, where they are not known.
@@ -106,7 +111,7 @@ double short_start(const Sizes& n) {
 
 /// Without responses every step moves all modes and evaluates all contacts.
 double stepped(const Sizes& n) {
-    return n.modes * n.steps * (step_operations + 1 + n.contacts + n.active);
+    return n.modes * n.steps * (step_operations + 1 + n.contacts + n.contacts);
 }
 
 }  // namespace

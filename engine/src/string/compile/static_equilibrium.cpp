@@ -4,7 +4,9 @@
 #include <numeric>
 
 #include "jawari/detail/lcp.h"
+#include "string/compile/contact_tables.h"
 #include "string/kernels/mode_sums.h"
+#include "string/model/contact_response.h"
 
 namespace jawari {
 
@@ -25,22 +27,17 @@ std::optional<AlignedVector<double>> held_displacement(const StringModel& model,
     AlignedVector<double> compliance_of_mode(n, 0.0);  // 1/(mu omega^2)
     for (std::size_t k = 0; k < model.shape->mode_count; ++k)
         compliance_of_mode[k] = 0.5 / model.tuning.potential[k];
-    AlignedVector<double> static_compliance(count * model.shape->contact_stride, 0.0);
-    AlignedVector<double> response(n);
-    for (std::size_t c = 0; c < count; ++c) {
-        std::fill(response.begin(), response.end(), 0.0);
-        kernels::add_impulse(n, 1.0, compliance_of_mode.data(), model.shape->contact_rows.data() + c * n,
-                             response.data());
-        kernels::row_products(count, n, n, model.shape->contact_rows.data(), response.data(),
-                              static_compliance.data() + c * model.shape->contact_stride);
-    }
+    const AlignedVector<double> values = contact_operator(*model.shape, 1.0, compliance_of_mode);
+    ContactOperator static_compliance = compliance_of(model);
+    static_compliance.values = values.data();
+    static_compliance.id = 0;
+    static_compliance.norm = 0;
     std::vector<std::uint32_t> candidates(count);
     std::iota(candidates.begin(), candidates.end(), 0U);
     AlignedVector<double> force(model.shape->contact_stride, 0.0);
     AlignedVector<double> residual(model.shape->contact_stride, 0.0);
-    LcpWorkspace workspace = make_lcp_workspace(count, count);
-    const LcpOutcome outcome = solve_lcp({static_compliance.data(), model.shape->contact_stride}, gap,
-                                         candidates, force, residual, workspace);
+    LcpWorkspace workspace = make_lcp_workspace(count, {count, count, 0});
+    const LcpOutcome outcome = solve_lcp(static_compliance, gap, candidates, force, residual, workspace);
     if (!outcome.finished) return {};
     for (std::size_t c = 0; c < count; ++c) {
         if (force[c] > 0) {

@@ -6,10 +6,14 @@
 #include "jawari/detail/lcp.h"
 #include "string/contact/impact_law.h"
 #include "string/kernels/mode_sums.h"
+#include "string/kernels/response_sums.h"
 #include "string/model/contact_response.h"
 
 namespace jawari {
 namespace {
+
+/// Up to so many impulses their responses are added one by one.
+constexpr std::size_t few_sources = 32;
 
 ContactMoment moment_of(const StringModel& model, const ContactState& contact, std::size_t c) {
     ContactMoment moment;
@@ -175,12 +179,22 @@ void accept_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
         contact.gap[c] = contact.gap_free[c];
     }
     const ContactOperator A = compliance_of(model);
+    std::size_t impulses = 0;
     for (const auto active : contact.candidates) {
-        const double impulse = contact.impulse[active];
-        if (impulse <= 0) continue;
-        contact.frame_impulse[active] += impulse;
-        state.counters.impulses += 1;
-        for (const auto c : contact.near) contact.gap[c] += A(active, c) * impulse;
+        if (contact.impulse[active] <= 0) continue;
+        contact.frame_impulse[active] += contact.impulse[active];
+        impulses += 1;
+    }
+    state.counters.impulses += impulses;
+    if (impulses > few_sources) {
+        kernels::add_responses(A, contact.candidates.span(), contact.impulse.data(), contact.near.span(),
+                               contact.gap.data());
+    } else {
+        for (const auto active : contact.candidates) {
+            const double impulse = contact.impulse[active];
+            if (impulse <= 0) continue;
+            for (const auto c : contact.near) contact.gap[c] += A(active, c) * impulse;
+        }
     }
     state.counters.candidates += contact.candidates.size();
     for (const auto c : contact.near)

@@ -32,6 +32,17 @@ inline bool looks_ahead(ImpactLaw law) {
     return law == ImpactLaw::Newton || law == ImpactLaw::Passive;
 }
 
+/// Whether the law may act on a gap that is open at both ends of a step, because it was closed one step
+/// earlier.
+inline bool looks_back(ImpactLaw law) {
+    return law == ImpactLaw::PaoliSchatzman;
+}
+
+/// Whether no impact raises the energy H: tau <= y_before wherever there is an impulse.
+inline bool is_passive(ImpactLaw law) {
+    return law == ImpactLaw::Passive || law == ImpactLaw::Signorini;
+}
+
 /// tau [m]: the step's complementarity problem is 0 <= y+ - tau  perp  lambda >= 0.
 inline double target_gap(ImpactLaw law, const ContactMoment& c) {
     switch (law) {
@@ -47,7 +58,7 @@ inline double target_gap(ImpactLaw law, const ContactMoment& c) {
             // unlucky.
             return std::min(0.0, c.gap_before + c.excused);
         case ImpactLaw::PaoliSchatzman:
-            return std::min(-c.restitution * c.gap_before, c.gap_before + c.excused);
+            return -c.restitution * c.gap_before;
     }
     return 0;
 }

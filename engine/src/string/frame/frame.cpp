@@ -93,9 +93,13 @@ bool pass_short(const StringModel& model, StringState& state) {
 /// Solves the near contacts. The flight that the test has computed stays valid if none of them closes.
 /// Returns false if the state has become non-finite.
 bool pass_near(const StringModel& model, StringState& state, FrameKind kind) {
-    const bool in_contact_space = kind == FrameKind::NearInContactSpace;
     if (!evaluates_near_alone(state)) choose_all_contacts(model, state);
-    const bool struck = in_contact_space ? solve_near_frame(model, state) : step_through(model, state);
+    const std::uint64_t impulses_before = state.counters.impulses;
+    NearOutcome outcome = NearOutcome::Crowded;
+    if (kind == FrameKind::NearInContactSpace) outcome = solve_near_frame(model, state);
+    const bool in_contact_space = outcome != NearOutcome::Crowded;
+    const bool struck = in_contact_space ? outcome == NearOutcome::Struck : step_through(model, state);
+    state.near_frame.crowded = is_crowded(model, state, state.counters.impulses - impulses_before);
     state.counters.near_frames += 1;
     if (in_contact_space || !struck) adopt_flight(state);
     advance_bounds(model, state);

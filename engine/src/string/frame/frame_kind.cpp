@@ -44,7 +44,8 @@ std::optional<FrameKind> choose_frame_kind(const StringModel& model, const Strin
         return unanswered ? std::nullopt : std::optional(FrameKind::Short);
     }
     if (answer != BroadPhaseAnswer::MayClose) return std::nullopt;
-    const bool in_contact_space = evaluates_near_alone(state) && !model.tuning.response.empty();
+    const bool in_contact_space =
+        evaluates_near_alone(state) && !model.tuning.response.empty() && !state.near_frame.crowded;
     return in_contact_space ? FrameKind::NearInContactSpace : FrameKind::NearStepped;
 }
 

@@ -157,7 +157,9 @@ StringState allocate_string_state(const StringSizes& sizes) {
         array->assign(sizes.stride, 0.0);
     }
     state.contact = make_contact_state(sizes);
-    state.lcp = make_lcp_workspace(sizes.contacts);
+    LcpLimits limits;
+    limits.independent = std::max(largest_factor, sizes.stride);
+    state.lcp = make_lcp_workspace(sizes.contacts, limits);
     state.certificate = make_certificate_state(sizes);
     state.near_frame = make_near_state(sizes);
     state.short_frame = make_short_frame_state(sizes);
@@ -192,6 +194,7 @@ void reset(const StringModel& model, StringState& state) noexcept {
     state.leaves_obstacles = false;
     state.certificate.bounds.strongest_speed = 0;
     state.certificate.bounds.strongest_extent = 0;
+    state.near_frame.crowded = false;
     place_obstacles(model, state.contact);
     notice_change(model, state);
     state.counters = {};

@@ -16,6 +16,9 @@
 namespace jawari {
 namespace {
 
+/// What beginning a row of responses costs, in its operations.
+constexpr double row_overhead = 16;
+
 /// force_rows and force_impulses <- the excitation of the coming frame, for a run over modes of unit
 /// mobility.
 void drive_by_excitation(const StringModel& model, StringState& state) {
@@ -146,9 +149,11 @@ void begin_rates(const StringModel& model, StringState& state) {
     }
 }
 
-/// Solves one complementarity problem a step, in the order of time.
-void solve_in_contact_space(const StringModel& model, StringState& state) {
+/// Solves one complementarity problem a step, in the order of time. Returns false where that turns out to
+/// cost more than steps of all modes.
+bool solve_in_contact_space(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
+    const std::uint64_t impulses_before = state.counters.impulses;
     begin_rates(model, state);
     near.struck.clear();
     near.first_impulse = model.shape->steps_per_frame;
@@ -167,7 +172,9 @@ void solve_in_contact_space(const StringModel& model, StringState& state) {
             clear_impulses(state);
         }
         accept_gaps(model, state);
+        if (is_crowded(model, state, state.counters.impulses - impulses_before)) return false;
     }
+    return true;
 }
 
 /// Adds the response of the modes to the impulses to the frame's end. It is computed for unit mobility and
@@ -197,7 +204,17 @@ void run_impulses(const StringModel& model, StringState& state) {
 
 }  // namespace
 
-bool solve_near_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
+bool is_crowded(const StringModel& model, const StringState& state, std::uint64_t impulses) JAWARI_REALTIME {
+    const auto steps = static_cast<double>(model.shape->steps_per_frame);
+    const auto near = static_cast<double>(state.contact.near.size());
+    const auto count = static_cast<double>(impulses);
+    const double spread =
+        count * near * (steps / 2 + (model.tuning.step_response.empty() ? row_overhead : 0));
+    const double stepped = static_cast<double>(model.shape->stride) * (near * steps + count);
+    return spread > stepped;
+}
+
+NearOutcome solve_near_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
     JAWARI_ASSERT(!model.tuning.response.empty() &&
                   state.near_frame.rates.size() >= model.shape->response_stride);
     ContactState& contact = state.contact;
@@ -207,17 +224,20 @@ bool solve_near_frame(const StringModel& model, StringState& state) JAWARI_REALT
         run_free(model, state, known);
         known = contact.near.size();
         save_start(state);
-        solve_in_contact_space(model, state);
+        if (!solve_in_contact_space(model, state)) {
+            restore_start(state);
+            return NearOutcome::Crowded;
+        }
         if (!admit_pushed_in_frame(model, state)) break;
         restore_start(state);
         place_gaps(model, state);
     } while (true);
     state.counters.steps += model.shape->steps_per_frame;
     state.excitation.elapsed += model.shape->steps_per_frame;
-    if (state.near_frame.struck.empty()) return false;
+    if (state.near_frame.struck.empty()) return NearOutcome::Open;
     state.certificate.validity.outdated = true;
     run_impulses(model, state);
-    return true;
+    return NearOutcome::Struck;
 }
 
 }  // namespace jawari

@@ -10,10 +10,19 @@
 namespace jawari {
 
 /// A = h theta D
+inline ContactOperator compliance_of(const StringShape& shape) {
+    ContactOperator A;
+    A.values = shape.compliance.data();
+    A.stride = shape.contact_stride;
+    A.node = shape.grid_node.empty() ? nullptr : shape.grid_node.data();
+    A.id = shape.compliance_id;
+    A.period = 2 * shape.grid_intervals;
+    A.norm = shape.compliance_norm;
+    return A;
+}
+
 inline ContactOperator compliance_of(const StringModel& model) {
-    return {model.shape->compliance.data(), model.shape->contact_stride,
-            model.shape->grid_node.empty() ? nullptr : model.shape->grid_node.data(),
-            model.shape->compliance_id};
+    return compliance_of(*model.shape);
 }
 
 /// Gap rate of a contact n steps after 1 N s at the struck one: direct[n] - mirrored[n] [1/kg].

@@ -167,8 +167,7 @@ TEST_P(HeldPluck, IsLiftedClearOfObstaclesAndGainsNothing) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, HeldPluck,
-                         testing::Values(ImpactLaw::Passive, ImpactLaw::PaoliSchatzman, ImpactLaw::Signorini),
+INSTANTIATE_TEST_SUITE_P(Laws, HeldPluck, testing::Values(ImpactLaw::Passive, ImpactLaw::Signorini),
                          test::named);
 
 TEST(StaticEquilibrium, ObstaclesThatContradictOneAnotherAreRefused) {

@@ -62,22 +62,21 @@ TEST(ImpactLaw, PaoliSchatzmanReflectsThePositionOneStepEarlier) {
     EXPECT_EQ(target_gap(ImpactLaw::PaoliSchatzman, moment(-1, 3, 0)), 0);
     EXPECT_EQ(target_gap(ImpactLaw::PaoliSchatzman, moment(-1, 3, 0.5)), -1.5);
     EXPECT_EQ(target_gap(ImpactLaw::PaoliSchatzman, moment(-1, 3, 1)), -3);
-    // Already inside: no further than it was, never pushed out with energy.
-    EXPECT_EQ(target_gap(ImpactLaw::PaoliSchatzman, moment(1, -2, 0.5)), -2);
+    // Inside one step earlier: reflected as well, though the gap is open now.
+    EXPECT_EQ(target_gap(ImpactLaw::PaoliSchatzman, moment(1, -2, 0.5)), 1);
+    EXPECT_EQ(target_gap(ImpactLaw::PaoliSchatzman, moment(1, -2, 1)), 2);
 }
 
 TEST(ImpactLaw, DepthThatIsTheNumbersDoingIsNotKept) {
-    for (const ImpactLaw law : {ImpactLaw::Signorini, ImpactLaw::PaoliSchatzman}) {
-        ContactMoment c = moment(-0.1, -0.25, 0);
-        c.excused = 0.5;
-        EXPECT_EQ(target_gap(law, c), 0);
-        // What is deeper comes out step by step, so that the work of each is below rounding.
-        c.gap_before = -3;
-        EXPECT_EQ(target_gap(law, c), -2.5);
-        // A gap that was open has the same target as without.
-        c.gap_before = 2;
-        EXPECT_EQ(target_gap(law, c), 0);
-    }
+    ContactMoment c = moment(-0.1, -0.25, 0);
+    c.excused = 0.5;
+    EXPECT_EQ(target_gap(ImpactLaw::Signorini, c), 0);
+    // What is deeper comes out step by step, so that the work of each is below rounding.
+    c.gap_before = -3;
+    EXPECT_EQ(target_gap(ImpactLaw::Signorini, c), -2.5);
+    // A gap that was open has the same target as without.
+    c.gap_before = 2;
+    EXPECT_EQ(target_gap(ImpactLaw::Signorini, c), 0);
 }
 
 TEST(ImpactLaw, EveryPassiveLawsTargetIsAtMostTheGapBefore) {
@@ -86,12 +85,14 @@ TEST(ImpactLaw, EveryPassiveLawsTargetIsAtMostTheGapBefore) {
             for (const double e : {0.0, 0.3, 1.0}) {
                 EXPECT_LE(target_gap(ImpactLaw::Passive, moment(gap, before, e)), before);
                 EXPECT_LE(target_gap(ImpactLaw::Signorini, moment(gap, before, e)), before);
-                EXPECT_LE(target_gap(ImpactLaw::PaoliSchatzman, moment(gap, before, e)), before);
             }
         }
     }
-    // The known offender: a candidate that already separates.
+    // The known offenders: a candidate that already separates, and a gap that was closed.
     EXPECT_GT(target_gap(ImpactLaw::Newton, moment(-2, -4, 0.5)), -4);
+    EXPECT_GT(target_gap(ImpactLaw::PaoliSchatzman, moment(-2, -4, 0.5)), -4);
+    EXPECT_TRUE(is_passive(ImpactLaw::Passive) && is_passive(ImpactLaw::Signorini));
+    EXPECT_FALSE(is_passive(ImpactLaw::Newton) || is_passive(ImpactLaw::PaoliSchatzman));
 }
 
 TEST(ImpactLaw, ThetaSchemeWorksOnVelocities) {

@@ -83,9 +83,41 @@ TEST_P(PassiveLaw, EnergyNeverRises) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, PassiveLaw,
-                         testing::Values(ImpactLaw::Passive, ImpactLaw::Signorini, ImpactLaw::PaoliSchatzman),
+INSTANTIATE_TEST_SUITE_P(Laws, PassiveLaw, testing::Values(ImpactLaw::Passive, ImpactLaw::Signorini),
                          test::named);
+
+TEST(Energy, PaoliSchatzmanChangesItByTheGapsReflected) {
+    // y+ = -e y_before wherever there is an impulse: the work is -(1 + e) lambda y_before/(2h), and where
+    // gaps were closed one step earlier it is positive.
+    std::uint64_t rises = 0;
+    for (std::uint64_t seed = 2000; seed < 2040; ++seed) {
+        test::RandomScene random(seed);
+        SceneDescription scene = random.scene(ImpactLaw::PaoliSchatzman, 8000, 4e6);
+        std::get<PhysicalModes>(scene.strings[0].modes).damping = NoLoss{};
+        const StringModel model = test::compiled_string(scene);
+        StringState state = make_string_state(model);
+        const double initial = energy(model, state);
+        std::vector<double> before(model.shape->contact_count);
+        for (int n = 0; n < 1000; ++n) {
+            const double energy_before = energy(model, state);
+            for (std::size_t c = 0; c < before.size(); ++c) {
+                before[c] = -model.shape->contact_height[c];
+                for (std::size_t k = 0; k < model.shape->mode_count; ++k)
+                    before[c] += model.shape->contact_rows[c * model.shape->stride + k] *
+                                 (state.displacement[k] - model.shape->step_s * state.velocity[k]);
+            }
+            step(model, state);
+            double work = 0;
+            for (std::size_t c = 0; c < before.size(); ++c)
+                work -= (1 + model.shape->contact_restitution[c]) * state.contact.impulse[c] * before[c] /
+                        (2 * model.shape->step_s);
+            const double largest = std::max(initial, energy_before);
+            ASSERT_NEAR(energy(model, state) - energy_before, work, 1e-10 * largest) << "seed " << seed;
+            if (work > 1e-9 * largest) rises += 1;
+        }
+    }
+    EXPECT_GT(rises, 100U);
+}
 
 TEST(Energy, NewtonWithoutRestitutionLossKeepsItConstant) {
     // e = 1 and no damping: y+ = y_before wherever an impulse acts, so that no impulse works.
@@ -141,7 +173,7 @@ TEST_P(TruncatedLaw, TruncatedSolvesStayPassiveAndAreCounted) {
             const SceneDescription scene = random.scene(GetParam(), 8000, 4e6);
             const StringModel model = test::compiled_string(scene);
             StringState state = make_string_state(model, Metering::Step);
-            state.lcp = make_lcp_workspace(model.shape->contact_count, capacity);
+            state.lcp = make_lcp_workspace(model.shape->contact_count, {capacity, capacity, 1});
             for (int n = 0; n < 1500; ++n) step(model, state);
             EXPECT_LE(state.energy.worst_rise, 1e-13 * state.energy.initial) << "seed " << seed;
             EXPECT_LE(state.energy.worst_imbalance, 1e-13 * state.energy.initial) << "seed " << seed;
@@ -152,8 +184,7 @@ TEST_P(TruncatedLaw, TruncatedSolvesStayPassiveAndAreCounted) {
     EXPECT_GT(truncated, 500U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, TruncatedLaw,
-                         testing::Values(ImpactLaw::Passive, ImpactLaw::PaoliSchatzman, ImpactLaw::Signorini),
+INSTANTIATE_TEST_SUITE_P(Laws, TruncatedLaw, testing::Values(ImpactLaw::Passive, ImpactLaw::Signorini),
                          test::named);
 
 TEST(Energy, MetersAddUpToTheChangeOfEnergy) {

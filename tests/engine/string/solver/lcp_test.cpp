@@ -35,7 +35,7 @@ struct Solution {
 
 /// Solves with rows `stride` apart; `guess` is the warm start.
 Solution solve(const Problem& problem, std::vector<double> guess, std::size_t capacity,
-               std::size_t padding = 0) {
+               std::size_t padding = 0, std::size_t gradient_rounds = most_gradient_rounds) {
     const std::size_t n = problem.size();
     const std::size_t stride = n + padding;
     std::vector<double> A(n * stride, std::nan(""));  // what lies between the rows must not be read
@@ -49,7 +49,7 @@ Solution solve(const Problem& problem, std::vector<double> guess, std::size_t ca
     const std::vector<double> r(problem.r.data(), problem.r.data() + n);
     Solution solution{{}, std::move(guess), std::vector<double>(n, 0.0)};
     solution.lambda.resize(n, 0.0);
-    LcpWorkspace workspace = make_lcp_workspace(n, capacity);
+    LcpWorkspace workspace = make_lcp_workspace(n, {capacity, capacity, gradient_rounds});
     solution.outcome =
         solve_lcp({A.data(), stride}, r, candidates, solution.lambda, solution.residual, workspace);
     return solution;
@@ -373,21 +373,17 @@ TEST(Lcp, AgreesWithManyProjectedGaussSeidelSweeps) {
     }
 }
 
-TEST(Lcp, FullActiveSetStopsTheSolveAndLeavesItFeasible) {
+TEST(Lcp, AStoppedSolveIsFeasible) {
+    // More active contacts than the factor has room for, and one round of projected gradients.
     std::mt19937_64 random(6);
     for (const std::size_t capacity : {0U, 1U, 3U, 20U}) {
         const Problem problem = neck(120, 200, random);
         RandomProblem guesses(capacity);
         for (const auto& guess : {std::vector<double>(120, 0.0), guesses.guess(120)}) {
-            const Solution solution = solve(problem, guess, capacity);
+            const Solution solution = solve(problem, guess, capacity, 0, 1);
             EXPECT_FALSE(solution.outcome.finished) << capacity;
-            EXPECT_LE(solution.outcome.pivots, 4 * capacity + 16);
-            std::size_t pressed = 0;
-            for (const double lambda : solution.lambda) {
-                ASSERT_TRUE(lambda >= 0 && std::isfinite(lambda));
-                pressed += lambda > 0 ? 1 : 0;
-            }
-            EXPECT_LE(pressed, capacity);
+            EXPECT_LE(solution.outcome.pivots, 1U);
+            for (const double lambda : solution.lambda) ASSERT_TRUE(lambda >= 0 && std::isfinite(lambda));
         }
     }
 }
