@@ -1,4 +1,5 @@
-// Everything a simulation computes, as an HDF5 file (layout: docs/formats/scene.md, section "HDF5 output").
+// Everything a simulation computes, as an HDF5 file (layout: docs/commands/simulate.md, section "HDF5
+// output").
 #pragma once
 
 #include <cstdint>

@@ -11,6 +11,7 @@
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "cli/contact_warnings.h"
 #include "commands/simulate/overrides.h"
 #include "commands/simulate/probe_names.h"
 #include "commands/simulate/probe_output.h"
@@ -153,6 +154,15 @@ MaybeError print_summary(const SimulateOptions& options, const SimulationStats& 
     return output.value().commit();
 }
 
+/// Returns how many there are.
+std::size_t print_warnings(const SimulationStats& stats) {
+    std::vector<NamedCounters> strings;
+    for (const StringStats& string : stats.strings) strings.push_back({string.name, string.counters});
+    const auto lines = contact_warnings(stats.scene, "string", strings);
+    for (const std::string& line : lines) report(line);
+    return lines.size();
+}
+
 }  // namespace
 
 MaybeError simulate(const SimulateOptions& options) {
@@ -183,7 +193,9 @@ MaybeError simulate(const SimulateOptions& options) {
     stats.cpu_compile_s = cpu_compile_s;
     stats.cpu_render_s = renderer.cpu_render_s();
     if (auto error = finish(run, targets, renderer.state(), stats)) return error;
-    return print_summary(options, stats);
+    const std::size_t warnings = print_warnings(stats);
+    if (auto error = print_summary(options, stats)) return error;
+    return options.strict ? strict_error(stats.scene, warnings) : std::nullopt;
 }
 
 }  // namespace jawari::host
