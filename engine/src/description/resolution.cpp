@@ -13,6 +13,8 @@ namespace {
 
 /// Error of the contact law times the contact rate: the largest over rates from 96 kHz to 8 MHz [Hz].
 constexpr double error_times_rate_hz = 0.014e6;
+/// First mode of the string that it was measured on.
+constexpr double bass_fundamental_hz = 97.97;
 
 struct ModeError {
     double limit_hz;
@@ -84,6 +86,10 @@ Resolution resolution_for(double error, double output_rate_hz) {
     const double of_contact = std::sqrt(error * error - modes.error * modes.error);
     const double steps = std::ceil(error_times_rate_hz / of_contact / output_rate_hz);
     return {steps * output_rate_hz, modes.limit_hz};
+}
+
+double contact_error(double fundamental_hz, double contact_rate_hz) {
+    return error_times_rate_hz * (fundamental_hz / bass_fundamental_hz) / contact_rate_hz;
 }
 
 SceneDescription at_quality(SceneDescription scene, Quality quality) {

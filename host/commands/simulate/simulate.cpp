@@ -16,6 +16,7 @@
 #include "commands/simulate/probe_names.h"
 #include "commands/simulate/probe_output.h"
 #include "commands/simulate/recorder.h"
+#include "commands/simulate/resolution_warning.h"
 #include "commands/simulate/row_renderer.h"
 #include "commands/simulate/stats.h"
 #include "formats/scene/read_scene.h"
@@ -154,11 +155,28 @@ MaybeError print_summary(const SimulateOptions& options, const SimulationStats& 
     return output.value().commit();
 }
 
+std::vector<StringResolution> resolutions_at_start(const Scene& scene, const SceneModel& model,
+                                                   const SceneState& start) {
+    std::vector<StringResolution> resolutions;
+    for (std::size_t s = 0; s < model.strings.size(); ++s)
+        resolutions.push_back(
+            describe_resolution(scene.description.strings[s], model.strings[s], start.strings[s]));
+    return resolutions;
+}
+
 /// Returns how many there are.
-std::size_t print_warnings(const SimulationStats& stats) {
+std::size_t print_warnings(const SimulationStats& stats, std::vector<StringResolution> resolutions) {
     std::vector<NamedCounters> strings;
-    for (const StringStats& string : stats.strings) strings.push_back({string.name, string.counters});
-    const auto lines = contact_warnings(stats.scene, "string", strings);
+    for (std::size_t s = 0; s < stats.strings.size(); ++s) {
+        const StringStats& string = stats.strings[s];
+        strings.push_back({string.name, string.counters});
+        // What truncated solves let through is not the contact rate's doing.
+        if (string.counters.truncated_solves == 0) resolutions[s].impulses = string.counters.impulses;
+        resolutions[s].penetration_m = string.counters.worst_penetration_m;
+    }
+    auto lines = contact_warnings(stats.scene, "string", strings);
+    if (auto line = resolution_warning(stats.scene, stats.settings, resolutions))
+        lines.push_back(std::move(*line));
     for (const std::string& line : lines) report(line);
     return lines.size();
 }
@@ -187,13 +205,14 @@ MaybeError simulate(const SimulateOptions& options) {
     if (auto error = create_outputs(run, targets)) return error;
     notice_ignored_restitution(scene);
     RowRenderer renderer = make_renderer(run);
+    const auto resolutions = resolutions_at_start(scene, model.value(), renderer.state());
     if (auto error = render_all(run, renderer)) return error;
 
     SimulationStats stats = collect_stats(scene, model.value(), renderer.state(), run.metering, last_row + 1);
     stats.cpu_compile_s = cpu_compile_s;
     stats.cpu_render_s = renderer.cpu_render_s();
     if (auto error = finish(run, targets, renderer.state(), stats)) return error;
-    const std::size_t warnings = print_warnings(stats);
+    const std::size_t warnings = print_warnings(stats, resolutions);
     if (auto error = print_summary(options, stats)) return error;
     return options.strict ? strict_error(stats.scene, warnings) : std::nullopt;
 }

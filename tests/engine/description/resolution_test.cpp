@@ -69,5 +69,15 @@ TEST(Quality, ModesAreCutAtTheLimitWhateverTheirForm) {
     EXPECT_TRUE(compile(cut));
 }
 
+/// The inverse of resolution_for() where no mode is missing, and the same number of steps a period has the
+/// same error whatever the pitch.
+TEST(Quality, ContactErrorsFallWithTheRateAndRiseWithThePitch) {
+    const double bass_hz = 97.97;
+    const double rate_hz = resolution_for(1e-4, 1).contact_rate_hz;
+    EXPECT_NEAR(contact_error(bass_hz, rate_hz), 1e-4, 1e-9);
+    EXPECT_DOUBLE_EQ(contact_error(bass_hz, 2e6), 2 * contact_error(bass_hz, 4e6));
+    EXPECT_DOUBLE_EQ(contact_error(3 * bass_hz, 3e6), contact_error(bass_hz, 1e6));
+}
+
 }  // namespace
 }  // namespace jawari

@@ -32,6 +32,11 @@ struct Resolution {
 /// Threads: any.
 Resolution resolution_for(double error, double output_rate_hz);
 
+/// Error that a contact rate leaves on the published bass with all its modes (resolution_for()), the
+/// published bass being scaled in time to another fundamental: times and rates scale alike. Above 1: nothing
+/// is right. `fundamental_hz`, `contact_rate_hz`: above 0. Threads: any; realtime-safe.
+double contact_error(double fundamental_hz, double contact_rate_hz);
+
 /// The scene at the resolution of a quality: its modes cut, its contact rate set. Precondition: compile()
 /// accepts the scene. Threads: any. Allocates.
 SceneDescription at_quality(SceneDescription scene, Quality quality);
