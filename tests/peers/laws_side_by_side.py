@@ -86,7 +86,7 @@ def by_jawari(scene, law, restitution, program):
         with open(scene_path, "w", encoding="utf-8") as file:
             json.dump(scene, file)
         command = [program, "simulate", scene_path, "--start", "backward", "--law", law, "--restitution", repr(restitution),
-                   "--out", out_path]
+                   "--meter-steps", "--out", out_path]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             sys.exit(f"{' '.join(command)} exited with {done.returncode}: {done.stderr.strip()}")

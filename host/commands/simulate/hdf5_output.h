@@ -18,7 +18,8 @@ namespace jawari::host {
 class Hdf5Output {
   public:
     static Outcome<Hdf5Output> create(OutputFile file, const Scene& scene, const SceneModel& model,
-                                      const std::vector<ProbeLabel>& probes, std::uint64_t rows);
+                                      const std::vector<ProbeLabel>& probes, std::uint64_t rows,
+                                      Metering metering);
     Hdf5Output(const Hdf5Output&) = delete;
     Hdf5Output& operator=(const Hdf5Output&) = delete;
     Hdf5Output(Hdf5Output&& other) noexcept;

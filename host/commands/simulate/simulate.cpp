@@ -90,9 +90,8 @@ MaybeError create_outputs(Run& run, Targets& targets) {
     if (!run.options.plot.empty()) run.recorder.emplace(run.scene, run.model, run.probes, run.last_row);
     if (!targets.out) return std::nullopt;
     const OutputFormat format = *output_format(run.options.out);
-    if (format == OutputFormat::Hdf5) run.metering = Metering::Step;
-    auto output =
-        create_output(format, std::move(*targets.out), run.scene, run.model, run.probes, run.last_row + 1);
+    auto output = create_output(format, std::move(*targets.out), run.scene, run.model, run.probes,
+                                run.last_row + 1, run.metering);
     if (!output) return output.error();
     run.output.emplace(std::move(output.value()));
     return std::nullopt;
@@ -201,7 +200,8 @@ MaybeError simulate(const SimulateOptions& options) {
 
     const auto last_row =
         static_cast<std::uint64_t>(std::llround(scene.duration_s * scene.description.output_rate_hz));
-    Run run{options, scene, model.value(), probes, last_row, Metering::Frame, {}, {}, 0};
+    const Metering metering = options.meter_steps ? Metering::Step : Metering::Frame;
+    Run run{options, scene, model.value(), probes, last_row, metering, {}, {}, 0};
     if (auto error = create_outputs(run, targets)) return error;
     notice_ignored_restitution(scene);
     RowRenderer renderer = make_renderer(run);

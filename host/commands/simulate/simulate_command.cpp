@@ -81,6 +81,9 @@ void add_files(CLI::App& app, SimulateOptions& options) {
                 return refusal(path, "a name that ends in .csv, .h5 or .wav, or -");
             },
             ""));
+    app.add_flag(
+        "--meter-steps", options.meter_steps,
+        "Meter losses and work at each contact step, for FILE.h5; computes every step, which is slow");
     app.add_option("--stats", options.stats, "Statistics as JSON; - for standard output")
         ->type_name("FILE.json")
         ->check(CLI::Validator(
