@@ -47,7 +47,12 @@ def playing(options):
     """The scene's first string at the rate asked for, plucked as hard as asked for."""
     scene = jawari_scene.read_scene(options.scene)
     string = scene["strings"][0]
-    string["initial"]["pluck"]["height_m"] *= options.louder
+    initial = string["initial"]
+    if "pluck" in initial:
+        initial["pluck"]["height_m"] *= options.louder
+    for key in ("modal_displacement", "modal_velocity"):
+        if key in initial:
+            initial[key] = [options.louder * value for value in initial[key]]
     string["probes"] = []
     steps = round(options.seconds * options.rate)
     scene.update(contact_rate_hz=options.rate, output_rate_hz=options.rate, duration_s=steps / options.rate, strings=[string])

@@ -1,6 +1,9 @@
 // What `jawari simulate` says of results that are not to be trusted, and what --strict makes of it.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -64,6 +67,75 @@ TEST(SimulateWarnings, StrictEndsWithItsOwnCodeAndWholeOutputs) {
         << ran.err;
     EXPECT_EQ(read_text(folder.file("a.csv")), read_text(folder.file("b.csv")));
     EXPECT_TRUE(read_text(folder.file("b.json")).ends_with("}\n"));
+}
+
+/// The displacements of a scene at 15.68 kHz over 0.1 s.
+std::vector<double> displacements(const std::string& csv) {
+    std::vector<double> values;
+    std::stringstream lines(csv);
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+        std::stringstream fields(line);
+        std::string field;
+        std::getline(fields, field, ',');  // the time
+        while (std::getline(fields, field, ',')) values.push_back(std::strtod(field.c_str(), nullptr));
+    }
+    return values;
+}
+
+/// Relative L2 distance.
+double distance(const std::vector<double>& a, const std::vector<double>& truth) {
+    EXPECT_EQ(a.size(), truth.size());
+    double difference = 0, size = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        difference += (a[i] - truth[i]) * (a[i] - truth[i]);
+        size += truth[i] * truth[i];
+    }
+    return std::sqrt(difference / size);
+}
+
+struct Campaign {
+    const char* scene;
+    const char* law;
+};
+
+/// Against the same scene at 16 MHz: who is warned is wrong by a tenth at least, who is wrong by more than 45
+/// % is warned, and from 125 kHz on, the upper half of the published rates, nobody is.
+class LowRates : public testing::TestWithParam<Campaign> {};
+
+TEST_P(LowRates, AreWarnedOfWhereTheAnswerIsWrong) {
+    const auto [scene, law] = GetParam();
+    const auto run = [&](int steps) {
+        return simulate({scene, "--law", law, "--restitution", "0", "--duration", "0.1", "--output-rate",
+                         "15680", "--contact-rate", std::to_string(15680 * steps), "--out", "-"});
+    };
+    const auto truth = displacements(run(1024).out);
+    std::size_t warned = 0;
+    for (const int steps : {1, 2, 4, 8, 16, 32}) {
+        const Ran ran = run(steps);
+        const double error = distance(displacements(ran.out), truth);
+        const bool warning = ran.err.find("is far too low") != std::string::npos;
+        EXPECT_EQ(ran.error_lines(), warning ? 1 : 0) << ran.err;
+        EXPECT_TRUE(!warning || error > 0.1) << steps << ": " << error;
+        EXPECT_TRUE(warning || error <= 0.45) << steps << ": " << error;
+        EXPECT_TRUE(!warning || steps < 8) << ran.err;
+        warned += warning ? 1 : 0;
+    }
+    EXPECT_GE(warned, 1U);
+}
+
+INSTANTIATE_TEST_SUITE_P(SimulateWarnings, LowRates,
+                         testing::Values(Campaign{"lab/bass", "newton"}, Campaign{"lab/bass", "passive"},
+                                         Campaign{"lab/bass", "signorini"},
+                                         Campaign{"lab/one-contact", "newton"},
+                                         Campaign{"lab/one-contact", "signorini"}));
+
+/// The two-point bridge at its published 20 kHz is right to 1 %.
+TEST(SimulateWarnings, ThePublishedTanpuraIsFineEnough) {
+    const Ran ran = simulate({"lab/tanpura", "--out", "-"});
+    EXPECT_EQ(ran.exit_code, 0);
+    EXPECT_EQ(ran.err, "");
 }
 
 TEST(SimulateWarnings, StrictIsSilentAboutScenesThatAreRight) {
