@@ -17,6 +17,8 @@ constexpr int exit_code(ErrorKind kind) {
             break;
         case ErrorKind::Device:
             return 6;
+        case ErrorKind::Doubtful:
+            return 7;
         case ErrorKind::HungUp:
             return 129;
         case ErrorKind::Interrupted:

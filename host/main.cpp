@@ -30,8 +30,8 @@ constexpr const char* footer =
     "  jawari info bass-fretted\n"
     "\n"
     "Exit codes: 0 done; 2 wrong command line; 3 invalid input file; 4 a file cannot be read or written;\n"
-    "5 internal error; 6 audio or MIDI device; 129 hung up; 130 interrupted; 143 terminated. Every "
-    "failure prints one line on standard error.";
+    "5 internal error; 6 audio or MIDI device; 7 warnings with --strict; 129 hung up; 130 interrupted;\n"
+    "143 terminated. Every failure prints one line on standard error.";
 
 MaybeError usage(const CLI::App& app, const CLI::ParseError& problem) {
     std::string message = problem.what();

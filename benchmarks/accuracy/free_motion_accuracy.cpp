@@ -1,6 +1,6 @@
 // Prints the largest error of a free mode after ten seconds, relative to its initial amplitude, for three
 // ways of stepping with the same coefficients. Markdown, to standard output. The modes are every eighth of
-// the 862 of lab/bass.
+// the 862 of smooth/bass.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -5,7 +5,7 @@ import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DATA = ROOT / "docs" / "benchmarks"
-SCENES = ("bass", "one-contact", "fretless", "guitar")
+SCENES = ("bass", "one-contact", "fretless", "smooth-bass", "guitar")
 RESTITUTIONS = (0.0, 0.5, 0.9, 1.0)
 NAMES = {"uniform": "uniform exact scheme", "theta=0.5": "Moreau-Jean, theta 1/2", "theta=1.0": "Moreau-Jean, theta 1",
          "penalty": "penalty (Hunt-Crossley)", "ieq-modal": "quadratised, modal", "ieq": "quadratised, finite differences",

@@ -163,7 +163,7 @@ def published():
                     if r["law"] == "newton" and r["start"] == "backward" and r["rate_hz"] == rate]
             if runs:
                 table.append([f"{e:g}", rate_text(rate), percent(runs[0]["error"]), percent(runs[0]["error_first_position"]), text])
-    return markdown(["e", "contact rate", "here, four positions", "here, first position", "published, one position [JASA 2018]"], table)
+    return markdown(["e", "contact rate", "here, all positions", "here, x = 0.501 m", "published, one position [JASA 2018]"], table)
 
 
 def all_frets():

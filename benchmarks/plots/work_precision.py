@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plots docs/images/benchmarks/work_precision_SCENE.svg and spectrum_SCENE.svg from docs/benchmarks/*.csv.
 
-    benchmarks/plots/work_precision.py [bass] [one-contact] [fretless] [guitar]
+    benchmarks/plots/work_precision.py [bass] [one-contact] [fretless] [smooth-bass] [guitar]
 """
 import json
 import sys

@@ -26,7 +26,7 @@ def compare(samples, reference):
 
 
 # Largest error of Signorini's law at 2 MHz, e = 0: some three times what it was when the references were made.
-ALLOWED = {"bass": 0.01, "one-contact": 1e-3, "fretless": 0.2, "guitar": 0.02}
+ALLOWED = {"bass": 0.01, "one-contact": 1e-3, "fretless": 0.2, "smooth-bass": 0.01, "guitar": 0.02}
 
 
 def check(build):
@@ -36,10 +36,10 @@ def check(build):
         error = methods.relative_error(samples, methods.load_reference(scene, 0.0))
         parts = facts[scene]["e0"]
         laws = parts["signorini"]["error"] / (parts["half_rate"]["error"] + parts["signorini_half_rate"]["error"])
-        good = error <= allowed and laws <= 2  # two laws, each within its own bar; bars of irregular convergence are rough
+        good = error <= allowed and laws <= 3  # two laws, each within its own bar; bars of irregular convergence are rough
         failed = failed or not good
         print(f"{'good' if good else 'BAD'} {scene}: error {error:.2e} (allowed: {allowed}); "
-              f"laws differ by {laws:.2f} of their bars (allowed: 2)")
+              f"laws differ by {laws:.2f} of their bars (allowed: 3)")
     return 1 if failed else 0
 
 

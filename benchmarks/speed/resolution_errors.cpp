@@ -1,4 +1,4 @@
-// Prints what the contact rate and the number of modes cost in accuracy: the tables from which quality.cpp
+// Prints what the contact rate and the number of modes cost in accuracy: the tables from which resolution.cpp
 // takes its law. Error: relative L2 distance of all probes over the first 0.1 s from the same scene at 64.5
 // MHz with all modes.
 #include <cmath>
@@ -44,11 +44,10 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
 /// The modes of every string up to `limit_hz`.
 SceneDescription limited(SceneDescription scene, double limit_hz) {
     for (auto& string : scene.strings) {
-        auto& modes = std::get<PhysicalModes>(string.modes);
         const Modes all = modes_of(string);
         std::size_t count = 0;
         while (count < all.omega.size() && all.omega[count] <= 2 * 3.14159265358979 * limit_hz) ++count;
-        modes.count = count;
+        keep_modes(string, count);
     }
     return scene;
 }

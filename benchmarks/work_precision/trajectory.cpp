@@ -41,8 +41,7 @@ SceneDescription described(const Options& options, double& duration_s) {
     }
     for (StringDescription& string : description.strings) {
         string.initial.start = options.start == "exact" ? Start::Exact : Start::Backward;
-        if (auto* physical = std::get_if<PhysicalModes>(&string.modes); physical && options.modes > 0)
-            physical->count = std::min(physical->count, options.modes);
+        if (options.modes > 0) keep_modes(string, options.modes);
         if (options.restitution < 0) continue;
         for (ContactDescription& contact : string.contacts) contact.restitution = options.restitution;
     }

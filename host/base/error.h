@@ -16,6 +16,7 @@ enum class ErrorKind {
     File,          ///< a file cannot be read or written
     Internal,      ///< a defect of the program, or out of memory
     Device,        ///< an audio or MIDI device or its driver cannot be used, or was lost
+    Doubtful,      ///< done, but there were warnings, which --strict does not allow
     HungUp,        ///< the terminal is gone
     Interrupted,
     Terminated

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
+#include "plot/gnuplot.h"
 namespace jawari::host::plot {
 
 Scale scale_for(double largest, std::string_view unit) {
@@ -98,11 +100,32 @@ std::string Panel::legend_beside() const {
            " left top Left reverse vertical maxcols 1 samplen 1.5 spacing 1.3\n";
 }
 
+std::string Panel::legend_below_bar() const {
+    return "set key at screen " + number(right + 0.1 * margin) + "," + number(bottom - 0.3 * foot) +
+           " left top Left reverse vertical maxcols 1 samplen 1 spacing 1.1\n";
+}
+
+std::string Panel::y_label(const std::string& text) const {
+    return "set label 1 " + quote(text) + " at screen " + number(left - 0.87 * edge) + "," +
+           number((bottom + top) / 2) + " center rotate by 90 textcolor rgb '#303030'\n";
+}
+
+std::string shortened(std::string_view text, std::size_t most) {
+    std::vector<std::size_t> starts;  // of characters: bytes that do not continue one
+    for (std::size_t i = 0; i < text.size(); ++i)
+        if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) starts.push_back(i);
+    if (starts.size() <= most) return std::string(text);
+    const std::size_t kept = most - 1;
+    const std::size_t from_end = kept / 2;
+    const std::size_t head = starts[kept - from_end];
+    const std::size_t tail = from_end == 0 ? text.size() : starts[starts.size() - from_end];
+    return std::string(text.substr(0, head)) + "…" + std::string(text.substr(tail));
+}
+
 std::string common_style() {
     return "set border 3 lw 1 lc rgb '#606060'\n"
            "set tics nomirror out scale 0.6 textcolor rgb '#303030'\n"
            "set grid lw 1 lc rgb '#e4e4e4'\n"
-           "set key bottom right samplen 1 spacing 1.1 opaque nobox\n"
            "set title font ',13' textcolor rgb '#202020' offset 0,-0.4\n"
            "set xlabel textcolor rgb '#303030' offset 0,0.3\nset ylabel textcolor rgb '#303030'\n"
            "set cblabel textcolor rgb '#303030'\n"

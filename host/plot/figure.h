@@ -51,11 +51,22 @@ std::string datablock(std::string_view name, std::span<const Polyline> lines);
 struct Panel {
     double left = 0, right = 1, bottom = 0, top = 1;
     double margin = 0;  ///< free width at its right, for a colour bar or a legend
+    double foot = 0;    ///< free height below it, for the labels of its x axis
+    double edge = 0;    ///< free width at its left, for the labels of its y axis
     /// `set` commands that put it there, its colour bar beside it.
     [[nodiscard]] std::string place() const;
     /// Its legend beside it.
     [[nodiscard]] std::string legend_beside() const;
+    /// Its legend of up to two short lines below its colour bar, where no curve is.
+    [[nodiscard]] std::string legend_below_bar() const;
+    /// The label of its y axis at the edge of its free width: gnuplot puts it beside the numbers, however
+    /// long these are, and so outside the picture.
+    [[nodiscard]] std::string y_label(const std::string& text) const;
 };
+
+/// The text, or its beginning and its end with an ellipsis between them, in at most `most` characters (at
+/// least 3) of UTF-8.
+std::string shortened(std::string_view text, std::size_t most);
 
 /// Settings of every panel: fonts, thin grey borders and grids.
 std::string common_style();

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text.h"
 #include "plot/figure.h"
 #include "plot/gnuplot.h"
 
@@ -24,10 +25,14 @@ constexpr int one_column_px = 1160;
 constexpr int column_px = 760;
 constexpr int heading_px = 46;
 constexpr int panel_px = 318;
-constexpr int left_px = 84;
-constexpr int right_px = 168;
+constexpr int left_px = 96;
+constexpr int right_px = 184;
 constexpr int above_px = 32;
 constexpr int below_px = 62;
+// Widths of characters, rounded up, in the sizes of gnuplot's fonts that are used here.
+constexpr int heading_character_px = 12;
+constexpr int title_character_px = 10;
+constexpr std::size_t legend_characters = 14;  // what right_px has room for beside a line's sample
 
 /// Where panels go: columns of strings, rows of panels, in pixels.
 struct Layout {
@@ -36,6 +41,14 @@ struct Layout {
     int column_width = one_column_px;
     [[nodiscard]] int width() const { return static_cast<int>(columns) * column_width; }
     [[nodiscard]] int height() const { return heading_px + static_cast<int>(rows) * panel_px; }
+    /// Characters of the heading, and of a title, which is centred over its panel and may reach into the
+    /// margins.
+    [[nodiscard]] std::size_t heading_characters() const {
+        return static_cast<std::size_t>(width() / heading_character_px);
+    }
+    [[nodiscard]] std::size_t title_characters() const {
+        return static_cast<std::size_t>((column_width - right_px) / title_character_px);
+    }
 
     [[nodiscard]] Panel panel(std::size_t column, std::size_t row) const {
         const double left = static_cast<double>(column) * column_width;
@@ -44,6 +57,8 @@ struct Layout {
         place.left = (left + left_px) / width();
         place.right = (left + column_width - right_px) / width();
         place.margin = static_cast<double>(right_px) / width();
+        place.edge = static_cast<double>(left_px) / width();
+        place.foot = static_cast<double>(below_px) / height();
         place.top = (top - above_px) / height();
         place.bottom = (top - panel_px + below_px) / height();
         return place;
@@ -112,7 +127,8 @@ std::string joined(const std::vector<std::string>& curves) {
     return text + "\n";
 }
 
-std::string snapshots_panel(const StringRecording& string, const Scale& time) {
+std::string snapshots_panel(const StringRecording& string, const Scale& time, const Panel& place,
+                            std::size_t most_title) {
     const Range metres = shape_range(string);
     const Scale height = scale_for(std::max(std::abs(metres.low), std::abs(metres.high)), "m");
     const Range axis{metres.low * height.factor, metres.high * height.factor, false};
@@ -136,10 +152,12 @@ std::string snapshots_panel(const StringRecording& string, const Scale& time) {
     if (!times.empty) curves.emplace_back("$shapes using 1:2:3 with lines lw 1.4 lc palette notitle");
 
     Range along{0, string.length_m, false};
-    std::string commands = data + "set title " + quote(string.name + ": string and obstacles") + "\n" +
-                           set_range("x", along) + set_range("y", axis) + viridis_palette() +
-                           "set xlabel 'position x (m)'\nset ylabel " +
-                           quote("displacement (" + height.unit + ")") + "\n";
+    const std::string what = ": string and obstacles";
+    const std::string title = shortened(string.name, most_title - what.size()) + what;
+    std::string commands = data + "set title " + quote(title) + "\n" + set_range("x", along) +
+                           set_range("y", axis) + viridis_palette() + place.legend_below_bar() +
+                           "set xlabel 'position x (m)'\n" +
+                           place.y_label("displacement (" + height.unit + ")");
     if (!times.empty && times.width() > 0) commands += set_range("cb", times);
     commands += "set cblabel " + quote("time (" + time.unit + ")") + "\n";
     return commands + joined(curves);
@@ -159,14 +177,20 @@ const char* quantity_name(Quantity quantity) {
     return "";
 }
 
-/// `displacement_m@0.1` says what the axis says already: what remains is where.
+/// `displacement_m@0.1#2` says what the axis says already: what remains is where, and the number of a
+/// repetition.
 std::string place_of(const ProbeSignal& signal) {
-    const auto at = signal.name.rfind('@');
-    if (at == std::string::npos) return signal.quantity == Quantity::Energy ? "H" : signal.name;
-    const std::string place = signal.name.substr(at + 1);
+    const auto hash = signal.name.rfind('#');
+    const bool repeated = hash != std::string::npos && signal.name.find('@', hash) == std::string::npos;
+    const std::string repetition = repeated ? " " + signal.name.substr(hash) : "";
+    const std::string name = repeated ? signal.name.substr(0, hash) : signal.name;
+    const auto at = name.rfind('@');
+    if (at == std::string::npos) return (signal.quantity == Quantity::Energy ? "H" : name) + repetition;
+    const std::string place = name.substr(at + 1);
     const std::string contact = "contact";
-    if (place.rfind(contact, 0) == 0) return contact + " " + place.substr(contact.size());
-    return "x = " + place + " m";
+    if (place.rfind(contact, 0) == 0) return contact + " " + place.substr(contact.size()) + repetition;
+    const auto position_m = parse_number(place);
+    return "x = " + (position_m ? formatted("%.6g", *position_m) : place) + " m" + repetition;
 }
 
 std::string signals_panel(const SceneRecording& recording, const std::vector<const ProbeSignal*>& signals,
@@ -189,7 +213,7 @@ std::string signals_panel(const SceneRecording& recording, const std::vector<con
         const std::string name = "signal" + std::to_string(i);
         data += datablock(name, {&line, 1});
         curves.push_back("$" + name + " using 1:2 with lines lw 1.2 lc rgb '" + line_colour(i) + "' title " +
-                         quote(place_of(*signals[i])));
+                         quote(shortened(place_of(*signals[i]), legend_characters)));
     }
     std::string title = std::string("probes: ") + quantity_name(signals[0]->quantity);
     if (shown < signals.size()) {
@@ -197,7 +221,7 @@ std::string signals_panel(const SceneRecording& recording, const std::vector<con
     }
     return data + "set title " + quote(title) + "\n" + set_range("x", time_range(recording, time)) +
            set_range("y", axis) + place.legend_beside() + "set xlabel " + quote("time (" + time.unit + ")") +
-           "\nset ylabel " + quote(quantity_name(signals[0]->quantity) + (" (" + scale.unit + ")")) + "\n" +
+           "\n" + place.y_label(quantity_name(signals[0]->quantity) + (" (" + scale.unit + ")")) +
            joined(curves);
 }
 
@@ -223,7 +247,7 @@ std::vector<ContactEvent> thinned(const SceneRecording& recording, const StringR
 }
 
 std::string contactogram_panel(const SceneRecording& recording, const StringRecording& string,
-                               const Scale& time) {
+                               const Scale& time, const Panel& place) {
     const std::vector<ContactEvent> events = thinned(recording, string);
     const double largest = events.empty() ? 0 : events.back().impulse_Ns;
     const Scale impulse = scale_for(largest, "N s");
@@ -241,8 +265,8 @@ std::string contactogram_panel(const SceneRecording& recording, const StringReco
     data += "EOD\n";
 
     std::string commands = data + set_range("x", time_range(recording, time)) + impulse_palette() +
-                           "set xlabel " + quote("time (" + time.unit + ")") +
-                           "\nset ylabel 'contact position x (m)'\n";
+                           "set xlabel " + quote("time (" + time.unit + ")") + "\n" +
+                           place.y_label("contact position x (m)");
     Range positions;
     for (const ObstaclePoint& obstacle : string.obstacles) positions.include(obstacle.position_m);
     if (positions.empty) positions = {0, string.length_m, false};
@@ -291,13 +315,12 @@ std::vector<std::vector<const ProbeSignal*>> by_quantity(const StringRecording& 
     return groups;
 }
 
-std::string heading(const SceneRecording& recording, std::size_t strings) {
-    std::string text = recording.title;
-    if (strings < recording.strings.size()) {
-        text +=
+std::string heading(const SceneRecording& recording, std::size_t strings, std::size_t most) {
+    std::string shown;
+    if (strings < recording.strings.size())
+        shown =
             " (" + std::to_string(strings) + " of " + std::to_string(recording.strings.size()) + " strings)";
-    }
-    return text;
+    return shortened(recording.title, most - shown.size()) + shown;
 }
 
 }  // namespace
@@ -313,18 +336,20 @@ SceneFigure scene_figure(const SceneRecording& recording) {
     layout.rows = 2 + groups;
 
     const Scale time = scale_for(recording.duration_s > 2 ? 1 : recording.duration_s / 2, "s");
-    std::string script =
-        "set multiplot title " + quote(heading(recording, layout.columns)) + " font ',16' offset 0,0.1\n";
+    std::string script = "set multiplot title " +
+                         quote(heading(recording, layout.columns, layout.heading_characters())) +
+                         " font ',16' offset 0,0.1\n";
     for (std::size_t s = 0; s < std::min(layout.columns, recording.strings.size()); ++s) {
         const StringRecording& string = recording.strings[s];
         std::size_t row = 0;
-        script += PanelScript{layout.panel(s, row++), snapshots_panel(string, time)}.text();
+        const Panel first = layout.panel(s, row++);
+        script += PanelScript{first, snapshots_panel(string, time, first, layout.title_characters())}.text();
         for (const auto& group : by_quantity(string)) {
             const Panel place = layout.panel(s, row++);
             script += PanelScript{place, signals_panel(recording, group, time, place)}.text();
         }
-        script +=
-            PanelScript{layout.panel(s, layout.rows - 1), contactogram_panel(recording, string, time)}.text();
+        const Panel last = layout.panel(s, layout.rows - 1);
+        script += PanelScript{last, contactogram_panel(recording, string, time, last)}.text();
     }
     return {layout.width(), layout.height(), script + "unset multiplot\n"};
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Compares what the program computes, bit by bit, with tests/bits/hashes.csv: the demo pieces on their presets, and the lab
-scenes under each impact law.
+"""Compares what the program computes, bit by bit, with tests/bits/hashes.csv: the demo pieces on their presets, and the
+built-in scenes under each impact law.
 
     tests/bits/check_bits.py PROGRAM            the processor's best instruction set, and AVX2
     tests/bits/check_bits.py PROGRAM --all      every instruction set that the processor has
@@ -31,9 +31,9 @@ def things():
     listed = subprocess.run([sys.executable, ROOT / "scripts/make_demo_midi.py", "--list"], check=True, capture_output=True, text=True)
     pieces = [line.split() for line in listed.stdout.splitlines()]
     result = {f"{piece} on {preset}": ["piece", str(ROOT / f"presets/demo/{piece}.mid"), preset] for piece, preset in pieces}
-    for scene in ("bass", "fretless", "one-contact"):
+    for scene in ("lab/bass", "lab/fretless", "lab/one-contact", "lab/tanpura", "smooth/bass"):
         for number, law in enumerate(LAWS):
-            result[f"lab/{scene} {law}"] = ["scene", f"lab/{scene}", str(number)]
+            result[f"{scene} {law}"] = ["scene", scene, str(number)]
     return result
 
 

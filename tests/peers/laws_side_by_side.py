@@ -47,7 +47,12 @@ def playing(options):
     """The scene's first string at the rate asked for, plucked as hard as asked for."""
     scene = jawari_scene.read_scene(options.scene)
     string = scene["strings"][0]
-    string["initial"]["pluck"]["height_m"] *= options.louder
+    initial = string["initial"]
+    if "pluck" in initial:
+        initial["pluck"]["height_m"] *= options.louder
+    for key in ("modal_displacement", "modal_velocity"):
+        if key in initial:
+            initial[key] = [options.louder * value for value in initial[key]]
     string["probes"] = []
     steps = round(options.seconds * options.rate)
     scene.update(contact_rate_hz=options.rate, output_rate_hz=options.rate, duration_s=steps / options.rate, strings=[string])
@@ -86,7 +91,7 @@ def by_jawari(scene, law, restitution, program):
         with open(scene_path, "w", encoding="utf-8") as file:
             json.dump(scene, file)
         command = [program, "simulate", scene_path, "--start", "backward", "--law", law, "--restitution", repr(restitution),
-                   "--out", out_path]
+                   "--meter-steps", "--out", out_path]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             sys.exit(f"{' '.join(command)} exited with {done.returncode}: {done.stderr.strip()}")

@@ -12,14 +12,16 @@ namespace jawari {
 namespace {
 
 /// Error of the contact law times the contact rate: the largest over rates from 96 kHz to 8 MHz [Hz].
-constexpr double error_times_rate_hz = 0.014e6;
+constexpr double error_times_rate_hz = 0.0095e6;
+/// First mode of the string that it was measured on.
+constexpr double bass_fundamental_hz = 97.97;
 
 struct ModeError {
     double limit_hz;
     double error;  ///< left when the modes above the limit are missing
 };
 constexpr std::array<ModeError, 7> mode_errors{
-    {{8e3, 0.48}, {12e3, 0.29}, {16e3, 0.27}, {20e3, 0.18}, {30e3, 0.075}, {42e3, 0.068}, {60e3, 0.059}}};
+    {{8e3, 0.49}, {12e3, 0.35}, {16e3, 0.34}, {20e3, 0.23}, {30e3, 0.07}, {42e3, 0.056}, {60e3, 0.047}}};
 /// The published bass has modes up to here.
 constexpr ModeError all_modes{std::numeric_limits<double>::infinity(), 0};
 /// Missing modes may use up this share of the error.
@@ -37,20 +39,6 @@ std::size_t modes_up_to(const StringDescription& string, double limit_hz) {
     const auto below = [&](double omega) { return omega <= 2 * std::numbers::pi * limit_hz; };
     const auto count = std::find_if_not(modes.omega.begin(), modes.omega.end(), below) - modes.omega.begin();
     return std::max<std::size_t>(static_cast<std::size_t>(count), 1);
-}
-
-void cut_modes(StringDescription& string, double limit_hz) {
-    const std::size_t count = modes_up_to(string, limit_hz);
-    if (auto* physical = std::get_if<PhysicalModes>(&string.modes)) {
-        physical->count = count;
-    } else if (auto* table = std::get_if<ModeTable>(&string.modes)) {
-        table->frequency_hz.resize(count);
-        table->decay_per_s.resize(count);
-    }
-    if (auto* state = std::get_if<ModalState>(&string.initial.shape)) {
-        if (!state->displacement.empty()) state->displacement.resize(count);
-        if (!state->velocity.empty()) state->velocity.resize(count);
-    }
 }
 
 }  // namespace
@@ -86,10 +74,29 @@ Resolution resolution_for(double error, double output_rate_hz) {
     return {steps * output_rate_hz, modes.limit_hz};
 }
 
+void keep_modes(StringDescription& string, std::size_t count) {
+    const auto cut = [count](std::vector<double>& values) { values.resize(std::min(count, values.size())); };
+    if (auto* physical = std::get_if<PhysicalModes>(&string.modes)) {
+        physical->count = std::min(count, physical->count);
+    } else if (auto* table = std::get_if<ModeTable>(&string.modes)) {
+        cut(table->frequency_hz);
+        cut(table->decay_per_s);
+    }
+    if (auto* state = std::get_if<ModalState>(&string.initial.shape)) {
+        cut(state->displacement);
+        cut(state->velocity);
+    }
+}
+
+double contact_error(double fundamental_hz, double contact_rate_hz) {
+    return error_times_rate_hz * (fundamental_hz / bass_fundamental_hz) / contact_rate_hz;
+}
+
 SceneDescription at_quality(SceneDescription scene, Quality quality) {
     const Resolution resolution = resolution_for(error_target(quality), scene.output_rate_hz);
     scene.contact_rate_hz = resolution.contact_rate_hz;
-    for (StringDescription& string : scene.strings) cut_modes(string, resolution.mode_limit_hz);
+    for (StringDescription& string : scene.strings)
+        keep_modes(string, modes_up_to(string, resolution.mode_limit_hz));
     return scene;
 }
 

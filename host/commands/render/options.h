@@ -35,6 +35,7 @@ struct RenderOptions {
     int guitar_channel = 0;                                  ///< 1 to 16; 0: no guitar mode
     std::vector<std::pair<ParameterId, double>> parameters;  ///< in each parameter's unit
     unsigned jobs = 0;                                       ///< 0: one a processor
+    bool strict = false;                                     ///< warnings are an error
 };
 
 inline constexpr const char* automatic_preset = "auto";

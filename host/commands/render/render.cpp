@@ -16,6 +16,7 @@
 #include "base/interrupt.h"
 #include "base/output_file.h"
 #include "base/text.h"
+#include "cli/contact_warnings.h"
 #include "commands/render/progress_board.h"
 #include "commands/render/render_job.h"
 #include "formats/tuning/tuning.h"
@@ -152,8 +153,14 @@ MaybeError print_summary(const RenderJob& job, const RenderOptions& options, con
     return output.value().commit();
 }
 
-void print_messages(const RenderedJob& result) {
-    for (const std::string& message : result.messages) std::fprintf(stderr, "%s\n", message.c_str());
+/// The number of warnings among them.
+std::size_t print_messages(const RenderedJob& result) {
+    std::size_t warnings = 0;
+    for (const std::string& message : result.messages) {
+        std::fprintf(stderr, "%s\n", message.c_str());
+        warnings += message.starts_with("warning: ") ? 1 : 0;
+    }
+    return warnings;
 }
 
 /// Workers take jobs in order until none is left.
@@ -205,16 +212,20 @@ Error interrupted(Error error, std::size_t jobs, const Workers& workers) {
 MaybeError print_results(const std::vector<RenderJob>& jobs, const RenderOptions& options,
                          const Workers& workers) {
     MaybeError last;
+    const auto fail = [&last](const Error& error) {
+        if (last) report(last->message);
+        last = error;
+    };
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         const auto& result = workers.result(i);
         if (!result) continue;
         if (!*result) {
-            if (last) report(last->message);
-            last = result->error();
+            fail(result->error());
             continue;
         }
-        print_messages(result->value());
+        const std::size_t warnings = print_messages(result->value());
         if (auto error = print_summary(jobs[i], options, result->value())) return error;
+        if (auto error = strict_error(jobs[i].midi, warnings); error && options.strict) fail(*error);
     }
     return last;
 }

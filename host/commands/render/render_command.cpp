@@ -39,7 +39,7 @@ std::string footer() {
            "  jawari render - -o - --preset bass-fretted < song.mid | aplay\n\n"
            "Exit codes: 0 done; 2 wrong command line; 3 invalid input file; 4 a file cannot be read or "
            "written;\n"
-           "5 internal error; 129 hung up; 130 interrupted; 143 terminated.";
+           "5 internal error; 7 warnings with --strict; 129 hung up; 130 interrupted; 143 terminated.";
 }
 
 CLI::Validator tail() {
@@ -146,6 +146,8 @@ void add_output_options(CLI::App& app, RenderOptions& options) {
            "Number of files rendered at the same time, default one per processor")
         ->type_name("N")
         ->check(whole_between(1, 256, ""));
+    app.add_flag("--strict", options.strict,
+                 "Warnings are an error (exit code 7); the outputs are written nevertheless");
 }
 
 }  // namespace

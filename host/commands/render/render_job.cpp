@@ -13,6 +13,7 @@
 #include "base/interrupt.h"
 #include "base/output_file.h"
 #include "base/text.h"
+#include "cli/contact_warnings.h"
 #include "commands/render/audio_file.h"
 #include "commands/render/humanise.h"
 #include "commands/render/render_score.h"
@@ -151,6 +152,13 @@ void add_notices(const Score& score, const Ensemble& ensemble, const RenderConte
         result.messages.emplace_back("notice: program changes do nothing; --preset auto follows them");
 }
 
+void add_contact_messages(const RenderJob& job, RenderedJob& result) {
+    std::vector<NamedCounters> parts;
+    for (const PartStats& part : result.stats.parts) parts.push_back({part.preset, part.contacts});
+    for (std::string& line : contact_warnings(job.midi, "preset", parts))
+        result.messages.push_back(std::move(line));
+}
+
 void add_level_messages(const RenderJob& job, const RenderOptions& options, const Outputs& outputs,
                         RenderedJob& result) {
     const ScoreStatistics& score = result.stats.score;
@@ -226,6 +234,7 @@ Outcome<RenderedJob> render_job(const RenderJob& job, const RenderContext& conte
     describe_job(job.midi, options, score.value(), ensemble, result.stats);
     if (auto error = finish(job, options, result.stats, outputs.value())) return *error;
     add_level_messages(job, options, outputs.value(), result);
+    add_contact_messages(job, result);
     return result;
 }
 

@@ -21,6 +21,7 @@ namespace {
 struct StringTables {
     Handle group;
     std::size_t contacts = 0;
+    bool metered = false;  ///< each step: the last three exist
     Handle gap, impulse, energy, dissipated, contact_work, player_work;
 };
 
@@ -66,23 +67,29 @@ bool write_modes(hid_t group, const StringModel& model) {
            hdf5::write_vector(group, "decay_per_s", first_modes(model.shape->sigma, model.shape->mode_count));
 }
 
-bool create_string(hid_t parent, std::size_t index, const StringDescription& string, const StringModel& model,
-                   std::uint64_t rows, StringTables& tables) {
-    tables.group = hdf5::create_group(parent, std::to_string(index));
+bool create_tables(std::uint64_t rows, StringTables& tables) {
     const hid_t group = tables.group.id();
-    tables.contacts = string.contacts.size();
     const Extent per_contact{rows, tables.contacts};
     const Extent per_row{rows, {}};
     // Impulses are zero nearly everywhere; gaps and energies hardly compress.
     tables.gap = hdf5::create_table(group, "gap_m", per_contact, false);
     tables.impulse = hdf5::create_table(group, "impulse_Ns", per_contact, true);
     tables.energy = hdf5::create_table(group, "energy_J", per_row, false);
+    const bool created = tables.gap.ok() && tables.impulse.ok() && tables.energy.ok();
+    if (!tables.metered) return created;
     tables.dissipated = hdf5::create_table(group, "dissipated_J", per_row, false);
     tables.contact_work = hdf5::create_table(group, "contact_work_J", per_row, false);
     tables.player_work = hdf5::create_table(group, "player_work_J", per_row, false);
-    const bool created = tables.group.ok() && tables.gap.ok() && tables.impulse.ok() && tables.energy.ok() &&
-                         tables.dissipated.ok() && tables.contact_work.ok() && tables.player_work.ok();
-    return created && set_attribute(group, "name", string.name) &&
+    return created && tables.dissipated.ok() && tables.contact_work.ok() && tables.player_work.ok();
+}
+
+bool create_string(hid_t parent, std::size_t index, const StringDescription& string, const StringModel& model,
+                   std::uint64_t rows, Metering metering, StringTables& tables) {
+    tables.group = hdf5::create_group(parent, std::to_string(index));
+    const hid_t group = tables.group.id();
+    tables.contacts = string.contacts.size();
+    tables.metered = metering == Metering::Step;
+    return tables.group.ok() && create_tables(rows, tables) && set_attribute(group, "name", string.name) &&
            set_attribute(group, "length_m", string.length_m) &&
            set_attribute(group, "linear_density_kg_per_m", string.linear_density_kg_per_m) &&
            set_attribute(group, "start", word(string.initial.start)) &&
@@ -94,10 +101,11 @@ bool write_string_rows(const StringTables& tables, const StringRows& rows, std::
                        std::uint64_t count) {
     const Extent per_contact{count, tables.contacts};
     const Extent per_row{count, {}};
-    return hdf5::write_rows(tables.gap, first, per_contact, rows.gap_m.data()) &&
-           hdf5::write_rows(tables.impulse, first, per_contact, rows.impulse_Ns.data()) &&
-           hdf5::write_rows(tables.energy, first, per_row, rows.energy_J.data()) &&
-           hdf5::write_rows(tables.dissipated, first, per_row, rows.dissipated_J.data()) &&
+    const bool written = hdf5::write_rows(tables.gap, first, per_contact, rows.gap_m.data()) &&
+                         hdf5::write_rows(tables.impulse, first, per_contact, rows.impulse_Ns.data()) &&
+                         hdf5::write_rows(tables.energy, first, per_row, rows.energy_J.data());
+    if (!tables.metered) return written;
+    return written && hdf5::write_rows(tables.dissipated, first, per_row, rows.dissipated_J.data()) &&
            hdf5::write_rows(tables.contact_work, first, per_row, rows.contact_work_J.data()) &&
            hdf5::write_rows(tables.player_work, first, per_row, rows.player_work_J.data());
 }
@@ -138,7 +146,7 @@ struct Hdf5Output::Tables {
     std::vector<double> scratch;
 
     bool create(const std::string& path, const Scene& scene, const SceneModel& model,
-                const std::vector<ProbeLabel>& labels, std::uint64_t rows) {
+                const std::vector<ProbeLabel>& labels, std::uint64_t rows, Metering metering) {
         hdf5::quiet();
         file = hdf5::create_file(path);
         if (!file.ok() ||
@@ -151,7 +159,7 @@ struct Hdf5Output::Tables {
         if (!time.ok() || !probes.ok() || !group.ok() || !write_probe_labels(file.id(), labels)) return false;
         strings.resize(model.strings.size());
         for (std::size_t s = 0; s < strings.size(); ++s)
-            if (!create_string(group.id(), s, scene.description.strings[s], model.strings[s], rows,
+            if (!create_string(group.id(), s, scene.description.strings[s], model.strings[s], rows, metering,
                                strings[s]))
                 return false;
         return true;
@@ -180,12 +188,13 @@ Error Hdf5Output::failure() const {
 }
 
 Outcome<Hdf5Output> Hdf5Output::create(OutputFile file, const Scene& scene, const SceneModel& model,
-                                       const std::vector<ProbeLabel>& probes, std::uint64_t rows) {
+                                       const std::vector<ProbeLabel>& probes, std::uint64_t rows,
+                                       Metering metering) {
     if (!file.seekable()) return file_error(file.path(), "not a regular file (allowed: a file, for HDF5)");
     Hdf5Output output(std::move(file), std::make_unique<Tables>());
     output.output_rate_hz_ = model.output_rate_hz;
     errno = 0;
-    if (!output.tables_->create(output.file_.temporary_path(), scene, model, probes, rows))
+    if (!output.tables_->create(output.file_.temporary_path(), scene, model, probes, rows, metering))
         return output.failure();
     return output;
 }

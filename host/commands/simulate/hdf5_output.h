@@ -1,4 +1,5 @@
-// Everything a simulation computes, as an HDF5 file (layout: docs/formats/scene.md, section "HDF5 output").
+// Everything a simulation computes, as an HDF5 file (layout: docs/commands/simulate.md, section "HDF5
+// output").
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,8 @@ namespace jawari::host {
 class Hdf5Output {
   public:
     static Outcome<Hdf5Output> create(OutputFile file, const Scene& scene, const SceneModel& model,
-                                      const std::vector<ProbeLabel>& probes, std::uint64_t rows);
+                                      const std::vector<ProbeLabel>& probes, std::uint64_t rows,
+                                      Metering metering);
     Hdf5Output(const Hdf5Output&) = delete;
     Hdf5Output& operator=(const Hdf5Output&) = delete;
     Hdf5Output(Hdf5Output&& other) noexcept;

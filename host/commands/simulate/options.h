@@ -27,9 +27,11 @@ struct SimulateOptions {
     std::string scene;  ///< a file or a built-in name
     Overrides overrides;
     Skipping skipping;
-    std::string out;    ///< empty: none; `-`: CSV on standard output
-    std::string stats;  ///< empty: none; `-`: standard output
-    std::string plot;   ///< empty: none
+    bool meter_steps = false;  ///< the energy balance of each contact step
+    bool strict = false;       ///< warnings are an error
+    std::string out;           ///< empty: none; `-`: CSV on standard output
+    std::string stats;         ///< empty: none; `-`: standard output
+    std::string plot;          ///< empty: none
 };
 
 }  // namespace jawari::host

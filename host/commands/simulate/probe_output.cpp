@@ -29,10 +29,10 @@ std::optional<OutputFormat> output_format(const std::string& path) {
 
 Outcome<ProbeOutput> create_output(OutputFormat format, OutputFile file, const Scene& scene,
                                    const SceneModel& model, const std::vector<ProbeLabel>& probes,
-                                   std::uint64_t rows) {
+                                   std::uint64_t rows, Metering metering) {
     switch (format) {
         case OutputFormat::Hdf5:
-            return as_output(Hdf5Output::create(std::move(file), scene, model, probes, rows));
+            return as_output(Hdf5Output::create(std::move(file), scene, model, probes, rows, metering));
         case OutputFormat::Wav:
             return as_output(WavOutput::create(std::move(file), probes.size(), rows, model.output_rate_hz));
         case OutputFormat::Csv:

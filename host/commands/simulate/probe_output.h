@@ -18,8 +18,9 @@ std::optional<OutputFormat> output_format(const std::string& path);
 
 using ProbeOutput = std::variant<CsvOutput, Hdf5Output, WavOutput>;
 
+/// `metering`: what the rows will hold; HDF5 has tables of losses and work with Metering::Step.
 Outcome<ProbeOutput> create_output(OutputFormat format, OutputFile file, const Scene& scene,
                                    const SceneModel& model, const std::vector<ProbeLabel>& probes,
-                                   std::uint64_t rows);
+                                   std::uint64_t rows, Metering metering);
 
 }  // namespace jawari::host

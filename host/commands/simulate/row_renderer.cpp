@@ -1,5 +1,6 @@
 #include "commands/simulate/row_renderer.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -24,17 +25,31 @@ std::size_t rows_between_polls(const SceneModel& model) {
     return static_cast<std::size_t>(std::clamp(2e8 / per_row, 1.0, 256.0));
 }
 
+/// y = S q - b of all contacts: the state's own gaps are those of its last evaluated step.
+Eigen::VectorXd gaps_now(const StringModel& model, const StringState& state) {
+    using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const auto contacts = static_cast<Eigen::Index>(model.shape->contact_count);
+    const auto stride = static_cast<Eigen::Index>(model.shape->stride);
+    const Eigen::Map<const Matrix> rows(model.shape->contact_rows.data(), contacts, stride);
+    const Eigen::Map<const Eigen::VectorXd> q(state.displacement.data(), stride);
+    const Eigen::Map<const Eigen::VectorXd> b(state.contact.height.data(), contacts);
+    return rows * q - b;
+}
+
 void append_contacts(const StringModel& model, const StringState& state, StringRows& rows) {
+    const Eigen::VectorXd gaps = gaps_now(model, state);
     for (const std::ptrdiff_t index : model.shape->contact_of_description) {
         const bool kept = index >= 0;
         const auto c = static_cast<std::size_t>(std::max<std::ptrdiff_t>(index, 0));
-        rows.gap_m.push_back(kept ? state.contact.gap[c] : std::numeric_limits<double>::quiet_NaN());
+        rows.gap_m.push_back(kept ? gaps[index] : std::numeric_limits<double>::quiet_NaN());
         rows.impulse_Ns.push_back(kept ? state.contact.frame_impulse[c] : 0.0);
     }
 }
 
-void append_energies(const StringModel& model, const StringState& state, StringRows& rows) {
+void append_energies(const StringModel& model, const StringState& state, Metering metering,
+                     StringRows& rows) {
     rows.energy_J.push_back(energy(model, state));
+    if (metering != Metering::Step) return;
     rows.dissipated_J.push_back(state.energy.dissipated);
     rows.contact_work_J.push_back(state.energy.contact_work);
     rows.player_work_J.push_back(state.energy.player_work);
@@ -50,6 +65,7 @@ RowRenderer::RowRenderer(const SceneModel& model, std::uint64_t last_row, Meteri
       outputs_(model.probe_count),
       last_row_(last_row),
       rows_per_block_(rows_between_polls(model)),
+      metering_(metering),
       with_contacts_(with_contacts) {
     block_.probes.resize(model.probe_count);
 }
@@ -87,7 +103,7 @@ void RowRenderer::observe(std::size_t offset) {
     if (!with_contacts_) return;
     for (std::size_t s = 0; s < model_.strings.size(); ++s) {
         append_contacts(model_.strings[s], state_.strings[s], block_.strings[s]);
-        append_energies(model_.strings[s], state_.strings[s], block_.strings[s]);
+        append_energies(model_.strings[s], state_.strings[s], metering_, block_.strings[s]);
     }
 }
 

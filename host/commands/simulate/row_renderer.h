@@ -16,7 +16,9 @@ struct StringRows {
     std::vector<double>
         gap_m;  ///< row-major, one column per described contact; NaN for contacts that compile() dropped
     std::vector<double> impulse_Ns;  ///< row-major; sum over the output interval that ends at the row
-    std::vector<double> energy_J, dissipated_J, contact_work_J, player_work_J;  ///< one per row
+    std::vector<double> energy_J;    ///< one per row
+    /// One per row with Metering::Step, which alone measures them; else empty.
+    std::vector<double> dissipated_J, contact_work_J, player_work_J;
 };
 
 /// Some consecutive rows.
@@ -60,6 +62,7 @@ class RowRenderer {
     std::uint64_t last_row_;
     std::uint64_t next_row_ = 0;
     std::size_t rows_per_block_;
+    Metering metering_;
     bool with_contacts_;
     double cpu_render_s_ = 0;
 };

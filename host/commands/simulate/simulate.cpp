@@ -11,10 +11,12 @@
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "cli/contact_warnings.h"
 #include "commands/simulate/overrides.h"
 #include "commands/simulate/probe_names.h"
 #include "commands/simulate/probe_output.h"
 #include "commands/simulate/recorder.h"
+#include "commands/simulate/resolution_warning.h"
 #include "commands/simulate/row_renderer.h"
 #include "commands/simulate/stats.h"
 #include "formats/scene/read_scene.h"
@@ -88,9 +90,8 @@ MaybeError create_outputs(Run& run, Targets& targets) {
     if (!run.options.plot.empty()) run.recorder.emplace(run.scene, run.model, run.probes, run.last_row);
     if (!targets.out) return std::nullopt;
     const OutputFormat format = *output_format(run.options.out);
-    if (format == OutputFormat::Hdf5) run.metering = Metering::Step;
-    auto output =
-        create_output(format, std::move(*targets.out), run.scene, run.model, run.probes, run.last_row + 1);
+    auto output = create_output(format, std::move(*targets.out), run.scene, run.model, run.probes,
+                                run.last_row + 1, run.metering);
     if (!output) return output.error();
     run.output.emplace(std::move(output.value()));
     return std::nullopt;
@@ -153,6 +154,32 @@ MaybeError print_summary(const SimulateOptions& options, const SimulationStats& 
     return output.value().commit();
 }
 
+std::vector<StringResolution> resolutions_at_start(const Scene& scene, const SceneModel& model,
+                                                   const SceneState& start) {
+    std::vector<StringResolution> resolutions;
+    for (std::size_t s = 0; s < model.strings.size(); ++s)
+        resolutions.push_back(
+            describe_resolution(scene.description.strings[s], model.strings[s], start.strings[s]));
+    return resolutions;
+}
+
+/// Returns how many there are.
+std::size_t print_warnings(const SimulationStats& stats, std::vector<StringResolution> resolutions) {
+    std::vector<NamedCounters> strings;
+    for (std::size_t s = 0; s < stats.strings.size(); ++s) {
+        const StringStats& string = stats.strings[s];
+        strings.push_back({string.name, string.counters});
+        // What truncated solves let through is not the contact rate's doing.
+        if (string.counters.truncated_solves == 0) resolutions[s].impulses = string.counters.impulses;
+        resolutions[s].penetration_m = string.counters.worst_penetration_m;
+    }
+    auto lines = contact_warnings(stats.scene, "string", strings);
+    if (auto line = resolution_warning(stats.scene, stats.settings, resolutions))
+        lines.push_back(std::move(*line));
+    for (const std::string& line : lines) report(line);
+    return lines.size();
+}
+
 }  // namespace
 
 MaybeError simulate(const SimulateOptions& options) {
@@ -173,17 +200,21 @@ MaybeError simulate(const SimulateOptions& options) {
 
     const auto last_row =
         static_cast<std::uint64_t>(std::llround(scene.duration_s * scene.description.output_rate_hz));
-    Run run{options, scene, model.value(), probes, last_row, Metering::Frame, {}, {}, 0};
+    const Metering metering = options.meter_steps ? Metering::Step : Metering::Frame;
+    Run run{options, scene, model.value(), probes, last_row, metering, {}, {}, 0};
     if (auto error = create_outputs(run, targets)) return error;
     notice_ignored_restitution(scene);
     RowRenderer renderer = make_renderer(run);
+    const auto resolutions = resolutions_at_start(scene, model.value(), renderer.state());
     if (auto error = render_all(run, renderer)) return error;
 
     SimulationStats stats = collect_stats(scene, model.value(), renderer.state(), run.metering, last_row + 1);
     stats.cpu_compile_s = cpu_compile_s;
     stats.cpu_render_s = renderer.cpu_render_s();
     if (auto error = finish(run, targets, renderer.state(), stats)) return error;
-    return print_summary(options, stats);
+    const std::size_t warnings = print_warnings(stats, resolutions);
+    if (auto error = print_summary(options, stats)) return error;
+    return options.strict ? strict_error(stats.scene, warnings) : std::nullopt;
 }
 
 }  // namespace jawari::host

@@ -42,7 +42,7 @@ std::string footer() {
            "  jawari simulate lab/one-contact --output-rate 48000 --contact-rate 2016000 --out one.wav\n"
            "  jawari simulate lab/fretless --duration 0.01 --out - > probes.csv\n\n"
            "Exit codes: 0 done; 2 wrong command line; 3 invalid scene; 4 a file cannot be read or written;\n"
-           "5 internal error; 129 hung up; 130 interrupted; 143 terminated.";
+           "5 internal error; 7 warnings with --strict; 129 hung up; 130 interrupted; 143 terminated.";
 }
 
 void add_settings(CLI::App& app, Overrides& overrides) {
@@ -81,6 +81,9 @@ void add_files(CLI::App& app, SimulateOptions& options) {
                 return refusal(path, "a name that ends in .csv, .h5 or .wav, or -");
             },
             ""));
+    app.add_flag(
+        "--meter-steps", options.meter_steps,
+        "Meter losses and work at each contact step, for FILE.h5; computes every step, which is slow");
     app.add_option("--stats", options.stats, "Statistics as JSON; - for standard output")
         ->type_name("FILE.json")
         ->check(CLI::Validator(
@@ -142,6 +145,8 @@ void add_simulate_command(CLI::App& app, Command& command) {
     add_settings(*simulate_app, options->overrides);
     add_skipping(*simulate_app, options->skipping);
     add_files(*simulate_app, *options);
+    simulate_app->add_flag("--strict", options->strict,
+                           "Warnings are an error (exit code 7); the outputs are written nevertheless");
     simulate_app->footer(footer());
     simulate_app->callback([options, &command] { command = [options] { return simulate(*options); }; });
 }

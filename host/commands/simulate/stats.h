@@ -54,7 +54,7 @@ std::optional<double> energy_max_over_initial(const StringStats& string);
 /// The largest of all strings; empty if none starts with energy.
 std::optional<double> energy_max_over_initial(const SimulationStats& stats);
 
-/// docs/formats/scene.md, section "Statistics". Ends with a newline.
+/// docs/commands/simulate.md, section "Statistics". Ends with a newline.
 std::string stats_json(const SimulationStats& stats);
 
 /// A few lines for a person.

@@ -130,7 +130,7 @@ TEST(Modes, ViscoelasticLossAloneIsAComplexBendingStiffness) {
 }
 
 TEST(Modes, ValetteSumAtValuesDoneByHand) {
-    // lab/bass, the published formula at 40 digits in bc.
+    // smooth/bass, the formula at 40 digits in bc.
     const Modes modes = modes_of(bass_string());
     const auto expect = [&](std::size_t k, double frequency_hz, double decay_per_s) {
         EXPECT_NEAR(modes.omega[k - 1] / (2 * pi), frequency_hz, 1e-14 * frequency_hz);

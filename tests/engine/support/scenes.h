@@ -1,5 +1,4 @@
-// Scenes shared by the engine's tests: random ones within physical bounds, and the published bass without its
-// file.
+// Scenes shared by the engine's tests: random ones within physical bounds, and a bass string by a formula.
 #pragma once
 
 #include <cmath>
@@ -78,7 +77,8 @@ struct RandomScene {
     }
 };
 
-/// The string of the published bass (Issanchou et al. 2018) with frets at equal temperament.
+/// The string of smooth/bass, like the published bass (Issanchou et al. 2018) but by a formula, with frets at
+/// equal temperament.
 inline StringDescription bass_string(std::size_t modes, double loss_angle = 0.01) {
     StringDescription s;
     s.name = "bass";

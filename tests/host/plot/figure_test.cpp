@@ -55,6 +55,14 @@ TEST(PlotFigure, EnvelopeKeepsEveryPeak) {
     EXPECT_EQ(envelope(x, y, count).y, y);
 }
 
+TEST(PlotFigure, LongTextsKeepTheirBeginningAndTheirEnd) {
+    EXPECT_EQ(shortened("x = 0.1 m", 9), "x = 0.1 m");
+    EXPECT_EQ(shortened("0123456789", 5), "01…89");
+    EXPECT_EQ(shortened("0123456789", 6), "012…89");
+    EXPECT_EQ(shortened("éèéèéèéè", 3), "é…è");  // characters, not bytes
+    EXPECT_EQ(shortened("", 3), "");
+}
+
 TEST(PlotFigure, NumbersAreForGnuplot) {
     EXPECT_EQ(number(-0.25), "-0.25");
     EXPECT_EQ(number(INFINITY), "NaN");

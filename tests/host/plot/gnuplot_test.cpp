@@ -4,11 +4,13 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -132,6 +134,82 @@ TEST_F(Plot, LongRecordingsMakeSmallPictures) {
     scene.duration_s = 2;
     ASSERT_FALSE(plot_scene(scene, path("long.svg")).has_value());
     EXPECT_LT(content("long.svg").size(), 4000000u);
+}
+
+struct Text {
+    double left = 0, right = 0, bottom = 0, top = 0;  ///< in pixels from the picture's upper left corner
+    std::string text;
+};
+
+/// The texts of a picture by gnuplot's SVG terminal, as wide as they are in its PNG, whose fonts are in
+/// points of 4/3 pixels: characters of DejaVu Sans are 0.56 of the size wide in long texts.
+std::vector<Text> texts_of(const std::string& svg) {
+    static const std::regex group(
+        R"re(<g transform="translate\(([-\d.]+),([-\d.]+)\)( rotate\([-\d.]+\))?"[^>]*font-size="([\d.]+)"\s+text-anchor="(\w+)">\s*<text>([^<]*)</text>)re");
+    std::vector<Text> texts;
+    for (std::sregex_iterator at(svg.begin(), svg.end(), group), end; at != end; ++at) {
+        const std::smatch& match = *at;
+        const double x = std::stod(match[1]), y = std::stod(match[2]), size = std::stod(match[4]);
+        const std::string content = match[6];
+        const auto characters = std::count_if(content.begin(), content.end(), [](char c) {
+            return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+        });
+        const double width = 0.56 * 4 / 3 * size * static_cast<double>(characters);
+        const double before = match[5] == "middle" ? width / 2 : match[5] == "end" ? width : 0;
+        if (match[3].matched) {
+            texts.push_back({x - size, x + size / 4, y + before, y + before - width, content});
+        } else {
+            texts.push_back({x - before, x - before + width, y + size / 4, y - size, content});
+        }
+    }
+    return texts;
+}
+
+/// A recording whose texts are long: names, numbers on axes, places of probes.
+SceneRecording recording_of_long_texts(std::size_t strings) {
+    SceneRecording scene = recording(strings);
+    scene.title = std::string(200, 'a') + "/scene.json";
+    for (StringRecording& string : scene.strings) {
+        string.name = std::string(120, 'n');
+        string.obstacles = {{0.50101, -0.0005, Side::Below}, {0.50102, 0.002, Side::Above}};
+        string.probes[0].name = "displacement_m@0.13699912345#12";
+    }
+    return scene;
+}
+
+TEST_F(Plot, NoTextIsClipped) {
+    for (const std::size_t strings : {1U, 2U}) {
+        const SceneRecording scene = recording_of_long_texts(strings);
+        const SceneFigure figure = scene_figure(scene);
+        ASSERT_FALSE(plot_scene(scene, path("texts.svg")).has_value());
+        const auto texts = texts_of(content("texts.svg"));
+        std::size_t labels = 0;
+        for (const Text& text : texts) {
+            EXPECT_GE(text.left, 0) << text.text;
+            EXPECT_LE(text.right, figure.width) << text.text;
+            EXPECT_GE(text.top, 0) << text.text;
+            EXPECT_LE(text.bottom, figure.height) << text.text;
+            labels += text.text == "contact position x (m)" ? 1 : 0;
+        }
+        EXPECT_EQ(labels, strings);
+    }
+}
+
+TEST_F(Plot, LegendsLieBesideTheCurves) {
+    const SceneRecording scene = recording(1);
+    const SceneFigure figure = scene_figure(scene);
+    std::smatch margin;
+    ASSERT_TRUE(std::regex_search(figure.script, margin, std::regex("set rmargin at screen ([\\d.]+)")));
+    const double curves_end_px = std::stod(margin[1]) * figure.width;
+    ASSERT_FALSE(plot_scene(scene, path("legend.svg")).has_value());
+    std::size_t found = 0;
+    for (const Text& text : texts_of(content("legend.svg"))) {
+        if (text.text != "obstacle below" && text.text != "obstacle above" && text.text != "x = 0.1 m")
+            continue;
+        ++found;
+        EXPECT_GT(text.left, curves_end_px) << text.text;
+    }
+    EXPECT_EQ(found, 3U);
 }
 
 /// Spectrograms in few cells, which take gnuplot a hundredth of the time.

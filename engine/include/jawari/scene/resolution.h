@@ -1,6 +1,8 @@
 // How finely to compute: contact rate and number of modes from the error that is allowed.
 #pragma once
 
+#include <cstddef>
+
 #include "jawari/scene/description.h"
 
 namespace jawari {
@@ -27,10 +29,19 @@ struct Resolution {
 };
 
 /// The coarsest resolution that stays below `error` (1e-6 to 1) on the published bass. `output_rate_hz`:
-/// above 0. The contact law is of first order: error = 1.4 % MHz / contact rate. The error of missing modes
+/// above 0. The contact law is of first order: error = 0.95 % MHz / contact rate. The error of missing modes
 /// comes from a measured table. Both add up as squares. benchmarks/speed/resolution_errors.cpp measured them.
 /// Threads: any.
 Resolution resolution_for(double error, double output_rate_hz);
+
+/// Error that a contact rate leaves on the published bass with all its modes (resolution_for()), the
+/// published bass being scaled in time to another fundamental: times and rates scale alike. Above 1: nothing
+/// is right. `fundamental_hz`, `contact_rate_hz`: above 0. Threads: any; realtime-safe.
+double contact_error(double fundamental_hz, double contact_rate_hz);
+
+/// Leaves out all modes of the string but the first `count`, in its tables and in its initial state; nothing
+/// if it has no more. `count`: from 1. Precondition: compile() accepts the description. Threads: any.
+void keep_modes(StringDescription& string, std::size_t count);
 
 /// The scene at the resolution of a quality: its modes cut, its contact rate set. Precondition: compile()
 /// accepts the scene. Threads: any. Allocates.

@@ -42,7 +42,7 @@ TEST_P(SkippingOfLaw, AgreesWithUniformSteppingOnRandomScenes) {
     }
 }
 
-TEST_P(SkippingOfLaw, AgreesOnThePublishedBassAtAnyRestitution) {
+TEST_P(SkippingOfLaw, AgreesOnABassAtAnyRestitution) {
     for (const double restitution : {0.0, 0.5, 0.9, 1.0}) {
         for (const double rate : {1008000.0, 2016000.0}) {
             SceneDescription scene;

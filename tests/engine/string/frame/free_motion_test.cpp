@@ -24,7 +24,7 @@ constexpr std::size_t mode_stride =
 constexpr std::size_t mode_stride = 1;
 #endif
 
-/// The 862 damped modes of lab/bass. Modes above the step's Nyquist rate, and far above it, are among them at
+/// The 862 damped modes of smooth/bass. Modes above the step's Nyquist rate, and far above it, are among them at
 /// every rate.
 Modes bass_modes() {
     StringDescription string;
