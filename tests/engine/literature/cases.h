@@ -73,6 +73,18 @@ inline double landing_elastic_error(double depth, const UnitString& u) {
     });
 }
 
+/// The scene files plane_255 and plane_999: 100 kHz, many steps to an interval. Half the string lands at t =
+/// 3/4.
+inline SceneDescription plane_scene(std::size_t points, ImpactLaw law) {
+    SceneDescription scene = scene_of(landing(0.5, points + 1));
+    scene.strings[0].initial.shape = Pluck{0.5, 1};
+    scene.output_rate_hz = 500;
+    scene.contact_rate_hz = 100000;
+    scene.law = law;
+    return scene;
+}
+inline constexpr std::size_t rows_past_landing = 378;
+
 /// Error against a lattice of `lattice_intervals`, a multiple of the intervals of `u`.
 inline double lattice_error(const UnitString& u, std::size_t rows, std::size_t lattice_intervals) {
     const std::vector<Samples> reference = lattice_samples(u, rows, lattice_intervals / u.intervals);

@@ -8,15 +8,6 @@
 namespace jawari::literature {
 namespace {
 
-/// The scene file plane_255: Newton's law with e = 0, steps that are 390 to an interval.
-SceneDescription plane_scene(std::size_t points, double contact_rate_hz) {
-    SceneDescription scene = scene_of(landing(0.5, points + 1));
-    scene.strings[0].initial.shape = Pluck{0.5, 1};
-    scene.contact_rate_hz = contact_rate_hz;
-    scene.law = ImpactLaw::Newton;
-    return scene;
-}
-
 TEST(LandingString, LosesTheMotionOfThePartThatLands) {
     for (const double depth : {0.3, 0.5, 0.8}) {
         for (const std::size_t intervals : {80U, 160U})
@@ -33,7 +24,7 @@ TEST(LandingString, LiesOnThePlaneAsTheLatticeDoes) {
 }
 
 TEST(LandingString, Of255ModesKeepsHalfItsEnergy) {
-    const EngineRun r = run(plane_scene(255, 100000), 17);  // the landing is at t = 3/4
+    const EngineRun r = run(plane_scene(255, ImpactLaw::Newton), rows_past_landing);
     EXPECT_NEAR(energy_kept(r), 0.5, 0.004);
     EXPECT_EQ(r.counters.truncated_solves, 0U);
 }
