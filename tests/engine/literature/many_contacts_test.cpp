@@ -18,7 +18,7 @@ TEST(ManyContacts, OnAPlaneOf999PointsHalfTheEnergyIsKept) {
 }
 
 TEST(ManyContacts, AStringThatRestsOn2400PointsOfABridgeStaysThere) {
-    const EngineRun r = run(bridge_at_rest(2400), 21);
+    const EngineRun r = run(bridge_at_rest(2400), 11);
     EXPECT_EQ(r.counters.truncated_solves, 0U);
     EXPECT_LT(furthest_from_rest(r), 5e-8);
     EXPECT_NEAR(energy_kept(r), 1, 1e-5);

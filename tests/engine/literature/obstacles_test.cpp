@@ -4,11 +4,12 @@
 #include <cstddef>
 
 #include "literature/cases.h"
+#include "literature/spring_string.h"
 
 namespace jawari::literature {
 namespace {
 
-constexpr std::size_t fine_lattice = 5120;
+constexpr std::size_t fine_lattice = 2560;
 
 TEST(LatticeReference, ConvergesItself) {
     // On the arch with e = 0 the lattice is exact at any number of intervals.
@@ -21,6 +22,31 @@ TEST(LatticeReference, ConvergesItself) {
     EXPECT_LT(error_of(lattice_samples(elastic, 41, 4), finest), 3e-3);
     const UnitString bridge = sitar(80);
     EXPECT_LT(error_of(lattice_samples(bridge, 121, 16), lattice_samples(bridge, 121, 64)), 1e-4);
+}
+
+TEST(LatticeReference, OfAnElasticArchIsTheLimitOfStiffSprings) {
+    UnitString elastic = arch(6400);
+    elastic.restitution = 1;
+    const auto rigid = lattice_samples(elastic, 41);
+    double before = HUGE_VAL;
+    for (const std::size_t refinement : {1U, 2U, 4U}) {
+        UnitString u = arch(1600 * refinement);
+        const double stiffness = 2.5e5 * static_cast<double>(refinement * refinement);  // K dx^2 = 0.1
+        const double error = error_of(samples_of(SpringString(u, stiffness), u, 41, u.intervals / 20), rigid);
+        EXPECT_LT(error, before / 1.6) << refinement;
+        before = error;
+    }
+    EXPECT_LT(before, 5e-3);
+}
+
+TEST(LatticeReference, OfFinerStepsThanPointsIsWrongToo) {
+    // Finite differences share nothing with modes. Below their limit of stability they stop converging as
+    // well.
+    for (const std::size_t intervals : {200U, 400U}) {
+        const UnitString u = arch(intervals);
+        const auto exact = lattice_samples(u, 41);
+        EXPECT_GT(error_of(difference_samples(u, 41, 16), exact), 0.012) << intervals;
+    }
 }
 
 TEST(RattlingString, BetweenAPointBelowAndAPointAbove) {
