@@ -17,6 +17,8 @@ import subprocess
 import sys
 import tempfile
 
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # threads cost more than such small products
+
 import numpy as np
 
 import jawari_scene
