@@ -27,9 +27,10 @@ struct SimulateOptions {
     std::string scene;  ///< a file or a built-in name
     Overrides overrides;
     Skipping skipping;
-    std::string out;    ///< empty: none; `-`: CSV on standard output
-    std::string stats;  ///< empty: none; `-`: standard output
-    std::string plot;   ///< empty: none
+    std::string out;         ///< empty: none; `-`: CSV on standard output
+    std::string stats;       ///< empty: none; `-`: standard output
+    std::string plot;        ///< empty: none
+    bool overwrite = false;  ///< replaces files of other kinds too
 };
 
 }  // namespace jawari::host

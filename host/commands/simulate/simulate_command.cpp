@@ -81,6 +81,8 @@ void add_files(CLI::App& app, SimulateOptions& options) {
                 return refusal(path, "a name that ends in .csv, .h5 or .wav, or -");
             },
             ""));
+    app.add_flag("--overwrite", options.overwrite,
+                 "Outputs may replace files of other kinds; never what is read");
     app.add_option("--stats", options.stats, "Statistics as JSON; - for standard output")
         ->type_name("FILE.json")
         ->check(CLI::Validator(
