@@ -16,6 +16,7 @@
 #include "base/text.h"
 #include "commands/render/audio_file.h"
 #include "commands/render/humanise.h"
+#include "commands/render/note_offs.h"
 #include "commands/render/render_score.h"
 #include "commands/render/stem_files.h"
 #include "formats/midi_file/midi_file.h"
@@ -43,6 +44,7 @@ Outcome<MidiFile> load_midi(const RenderJob& job, const RenderOptions& options) 
     auto file = parse_midi(std::span(bytes, text.value().size()),
                            options.strict ? MidiReading::Strict : MidiReading::Lenient);
     if (!file) return invalid_input(input_name(job), file.failure());
+    file.value().events = with_note_offs(file.value().events);
     return std::move(file.value());
 }
 

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <map>
 #include <memory>
-#include <unordered_map>
 
 #include "midi/ignored.h"
 #include "midi/system_message.h"
@@ -143,47 +142,6 @@ class ScoreMaker {
     std::map<std::string, std::uint64_t> ignored_;
 };
 
-/// Note-ons whose note-off never comes, of keys that are played again: the next note of the key ends them, as
-/// a re-struck string does. Without this the matching of note-offs would hold every later note of the key.
-/// Returns the events, with a note-off before such notes.
-std::vector<MidiEvent> with_note_offs(const std::vector<MidiEvent>& events) {
-    struct Key {
-        std::uint64_t open = 0, forgotten = 0;
-    };
-    const auto key_of = [](const MidiEvent& event) {
-        return (std::uint32_t{event.port} << 11U) | (std::uint32_t{event.status} & 0xFU) << 7U | event.data1;
-    };
-    const auto is_note = [](const MidiEvent& event) {
-        return (event.status & 0xE0) == 0x80;  // 0x80 and 0x90
-    };
-    const auto is_on = [](const MidiEvent& event) { return event.status >= 0x90 && event.data2 > 0; };
-    std::unordered_map<std::uint32_t, Key> keys;
-    for (const MidiEvent& event : events) {
-        if (!is_note(event)) continue;
-        Key& key = keys[key_of(event)];
-        if (is_on(event)) key.open += 1;
-        if (!is_on(event) && key.open > 0) key.open -= 1;
-    }
-    for (auto& [number, key] : keys) key = {0, key.open};
-    std::vector<MidiEvent> whole;
-    whole.reserve(events.size());
-    for (const MidiEvent& event : events) {
-        if (is_note(event)) {
-            Key& key = keys[key_of(event)];
-            if (is_on(event) && key.open > 0 && key.forgotten > 0) {
-                whole.push_back(event);
-                whole.back().data2 = 0;
-                key.open -= 1;
-                key.forgotten -= 1;
-            }
-            if (is_on(event)) key.open += 1;
-            if (!is_on(event) && key.open > 0) key.open -= 1;
-        }
-        whole.push_back(event);
-    }
-    return whole;
-}
-
 /// At another tempo than that of the file.
 std::uint64_t played_frame(const MidiFile& file, std::uint64_t time, std::uint32_t rate_hz, double tempo) {
     const std::uint64_t frame = frame_of(file, time, rate_hz);
@@ -195,7 +153,7 @@ std::uint64_t played_frame(const MidiFile& file, std::uint64_t time, std::uint32
 Score make_score(const MidiFile& file, std::uint32_t rate_hz, const ScoreRules& rules) {
     Score score;
     ScoreMaker maker(rules, file, score);
-    for (const MidiEvent& event : with_note_offs(file.events))
+    for (const MidiEvent& event : file.events)
         maker.take(event, played_frame(file, event.time, rate_hz, rules.tempo));
     maker.finish();
     score.end_frame = played_frame(file, file.end_time, rate_hz, rules.tempo);

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "commands/render/note_offs.h"
 #include "support/midi_bytes.h"
 
 namespace jawari::host {
@@ -111,21 +112,27 @@ std::multimap<int, std::uint64_t> note_ends(const ScorePart& part) {
     return ends;
 }
 
+MidiFile completed(MidiFile file) {
+    file.events = with_note_offs(file.events);
+    return file;
+}
+
 TEST(Score, ANoteWithoutItsNoteOffEndsWithTheNextOfItsKey) {
     ScoreRules rules;
     rules.preset = "p";
     // The first note is never ended: without more ado the matching would hold the key to the end.
-    const Score score = make_score(file_of({{0, {0x90, 60, 100}},
-                                            {100, {0x90, 60, 100}},
-                                            {100, {0x80, 60, 64}},
-                                            {100, {0x90, 60, 100}},
-                                            {100, {0x80, 60, 64}}}),
+    const Score score = make_score(completed(file_of({{0, {0x90, 60, 100}},
+                                                      {100, {0x90, 60, 100}},
+                                                      {100, {0x80, 60, 64}},
+                                                      {100, {0x90, 60, 100}},
+                                                      {100, {0x80, 60, 64}}})),
                                    48000, rules);
     EXPECT_EQ(note_ends(score.parts.at(0)),
               (std::multimap<int, std::uint64_t>{{60, 4800}, {60, 9600}, {60, 19200}}));
     // Whereas notes that overlap are both ended.
     const Score overlap = make_score(
-        file_of({{0, {0x90, 60, 100}}, {100, {0x90, 60, 100}}, {100, {0x80, 60, 64}}, {100, {0x80, 60, 64}}}),
+        completed(file_of(
+            {{0, {0x90, 60, 100}}, {100, {0x90, 60, 100}}, {100, {0x80, 60, 64}}, {100, {0x80, 60, 64}}})),
         48000, rules);
     EXPECT_EQ(note_ends(overlap.parts.at(0)), (std::multimap<int, std::uint64_t>{{60, 14400}}));
 }
