@@ -14,14 +14,19 @@ namespace {
 
 constexpr std::size_t buffer_bytes = std::size_t{1} << 18U;
 
-/// Follows a symbolic link, also one whose target does not exist yet.
-std::string follow_links(const std::string& path) {
-    std::error_code failed;
-    const auto resolved = std::filesystem::weakly_canonical(path, failed);
-    return failed ? path : resolved.string();
-}
-
 }  // namespace
+
+std::string follow_links(const std::string& path) {
+    constexpr int most_links = 40;  // as Linux has it; a longer chain, or a ring, fails when it is opened
+    std::filesystem::path at = path;
+    for (int i = 0; i < most_links; ++i) {
+        std::error_code none;
+        const auto target = std::filesystem::read_symlink(at, none);
+        if (none) break;
+        at = target.is_absolute() ? target : at.parent_path() / target;
+    }
+    return at.string();
+}
 
 Outcome<OutputFile> OutputFile::create(const std::string& path) {
     OutputFile file;
@@ -119,6 +124,16 @@ void OutputFile::discard() noexcept {
     if (!temporary_path_.empty()) platform::remove_file(temporary_path_.c_str());
     temporary_path_.clear();
     guard_.forget();
+}
+
+MaybeError make_folder(const std::string& path) {
+    std::error_code failed;
+    const auto folder = std::filesystem::path(path.ends_with('/') ? path.substr(0, path.size() - 1) : path);
+    if (folder.empty() || std::filesystem::is_directory(folder, failed)) return std::nullopt;
+    failed.clear();
+    std::filesystem::create_directory(folder, failed);
+    if (failed) return file_error(path, failed.value());
+    return std::nullopt;
 }
 
 bool is_folder(const std::string& path) {

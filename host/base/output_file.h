@@ -50,6 +50,12 @@ class OutputFile {
     std::string buffer_;
 };
 
+/// Where a symbolic link leads to in the end, also if there is no file yet; else `path`.
+std::string follow_links(const std::string& path);
+
+/// Makes the folder if its own is there and it is not.
+MaybeError make_folder(const std::string& path);
+
 /// An existing folder, or a name that ends with a slash.
 bool is_folder(const std::string& path);
 

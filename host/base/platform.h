@@ -29,6 +29,7 @@ struct FileFacts {
     FileKind kind = FileKind::Regular;
     std::uint64_t bytes = 0;
     unsigned permissions = 0;
+    std::uint64_t device = 0, number = 0;  ///< the same for all names of one file, and for no other
 };
 
 std::optional<FileFacts> file_facts(const std::string& path);

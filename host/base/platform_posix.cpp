@@ -46,7 +46,8 @@ namespace jawari::host::platform {
 namespace {
 
 FileFacts facts_of(const struct stat& status) {
-    FileFacts facts{FileKind::Device, static_cast<std::uint64_t>(status.st_size), status.st_mode & 07777U};
+    FileFacts facts{FileKind::Device, static_cast<std::uint64_t>(status.st_size), status.st_mode & 07777U,
+                    static_cast<std::uint64_t>(status.st_dev), static_cast<std::uint64_t>(status.st_ino)};
     if (S_ISREG(status.st_mode)) facts.kind = FileKind::Regular;
     if (S_ISDIR(status.st_mode)) facts.kind = FileKind::Folder;
     if (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode)) facts.kind = FileKind::Pipe;

@@ -1,12 +1,14 @@
-// A WAV file that appears whole or not at all. A header is written last, so pipes, devices and standard
-// output get the finished file from a temporary one.
+// A sound file, of the format that its name says, that appears whole or not at all. A header is written last,
+// so pipes, devices and standard output get the finished file from a temporary one.
 #pragma once
 
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/output_file.h"
 
@@ -21,10 +23,24 @@ enum class SampleFormat { Pcm16, Pcm24, Float };
 inline constexpr std::uint32_t lowest_render_rate_hz = 8000;
 inline constexpr std::uint32_t highest_render_rate_hz = 384000;
 
-/// Encoding of a sample, with its size in bytes.
+/// Formats of files. Ogg holds Vorbis; raw files have no header: little-endian samples alone.
+enum class SoundContainer { Wav, W64, Aiff, Caf, Flac, Ogg, Raw };
+
+/// By the end of the name, whatever its case: .wav, .w64, .aif, .aiff, .caf, .flac, .ogg, .oga, .raw. WAV for
+/// names without an ending, `-`, and what is there and no regular file. Nothing for other endings.
+std::optional<SoundContainer> container_of(const std::string& path);
+
+/// What container_of() knows, for messages: `.wav, .w64, ...`.
+std::string container_endings();
+
+/// Whether its samples may be of this kind. Ogg chooses by itself: none.
+bool holds(SoundContainer container, SampleFormat format);
+
+/// Encoding of a sample, with its size in bytes, in a file of that format.
 struct SampleEncoding {
-    int subtype;  ///< of libsndfile: SF_FORMAT_PCM_16, ...
-    unsigned bytes;
+    int subtype;     ///< of libsndfile: SF_FORMAT_PCM_16, ...
+    unsigned bytes;  ///< 0 if samples are compressed
+    SoundContainer container = SoundContainer::Wav;
 };
 
 /// Text for the INFO list and the broadcast extension ("bext", EBU Tech 3285). Nothing that changes from run
@@ -39,7 +55,8 @@ void set_tags(sf_private_tag* sound, const SoundTags& tags);
 
 class SoundFile {
   public:
-    /// `most_frames` decides between WAV and, beyond 4 GB, RF64. Empty tags are left out.
+    /// `most_frames` decides between WAV and, beyond 4 GB, RF64. Empty tags are left out. A usage error if
+    /// the format cannot hold so many channels, such a rate or so many frames.
     static Outcome<SoundFile> create(OutputFile file, std::uint32_t rate_hz, std::size_t channels,
                                      SampleEncoding encoding, std::uint64_t most_frames,
                                      const SoundTags& tags = {});

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bitset>
+#include <cstdint>
 #include <vector>
 
 #include "midi/channel_message.h"
@@ -11,9 +12,11 @@
 namespace jawari::host {
 
 struct HeldNotes {
-    std::array<std::bitset<128>, midi_channel_count> keys;
-    std::bitset<midi_channel_count> pedals;  ///< sustain
-    std::bitset<midi_channel_count> bends;   ///< off the centre
+    /// Note-ons without their note-off: each of them needs one.
+    std::array<std::array<std::uint8_t, 128>, midi_channel_count> keys{};
+    /// Sustain, sostenuto and hold 2.
+    std::array<std::bitset<midi_channel_count>, 3> pedals;
+    std::bitset<midi_channel_count> bends;  ///< off the centre
 };
 
 /// Allocates nothing.

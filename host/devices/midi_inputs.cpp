@@ -147,6 +147,16 @@ void MidiInputs::poll() {
     connect_new(names);
 }
 
+void MidiInputs::watch(std::int64_t now_ns) {
+    const auto look = [&](MidiReceiver& receiver) {
+        if (receiver.release_if_silent(now_ns))
+            report_("warning: midi: " + in_quotes(receiver.name()) +
+                    " has stopped its active sensing; its notes are released");
+    };
+    for (const auto& receiver : receivers_) look(*receiver);
+    if (virtual_) look(*virtual_);
+}
+
 void MidiInputs::restart() {
     stop();
     auto lister = MidiLister::create(system_);

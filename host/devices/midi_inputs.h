@@ -2,6 +2,7 @@
 // again when it comes back.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -39,6 +40,9 @@ class MidiInputs {
 
     /// Looks for what came and went; to be called about once a second.
     void poll();
+
+    /// Lets go of what senders hold whose active sensing has stopped; to be called every few milliseconds.
+    void watch(std::int64_t now_ns);
 
     /// After the server of the system was lost: everything anew, without an error.
     void restart();

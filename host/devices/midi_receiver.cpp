@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "devices/quiet.h"
+#include "midi/system_message.h"
 #include "player/settings.h"
 
 namespace jawari::host {
@@ -31,7 +32,7 @@ void ignore_errors(RtMidiError::Type /*type*/, const std::string& /*text*/, void
 std::unique_ptr<RtMidiIn> make_client(const std::string& system, const char* name) {
     auto midi = std::make_unique<RtMidiIn>(RtMidi::getCompiledApiByName(system), name);
     midi->setErrorCallback(&ignore_errors);
-    midi->ignoreTypes(true, true, true);
+    midi->ignoreTypes(false, true, false);  // clocks and time code do nothing here
     return midi;
 }
 
@@ -66,6 +67,15 @@ std::optional<ChannelMessage> channel_message(std::span<const unsigned char> byt
     const auto is_data = [](unsigned char byte) { return byte < 0x80; };
     if (!std::all_of(bytes.begin() + 1, bytes.end(), is_data)) return std::nullopt;
     return ChannelMessage{bytes[0], bytes[1], count == 2 ? bytes[2] : std::uint8_t{0}};
+}
+
+std::vector<ChannelMessage> system_messages(std::span<const unsigned char> bytes) {
+    constexpr unsigned char exclusive = 0xF0, end_of_exclusive = 0xF7, system_reset = 0xFF;
+    if (bytes.size() == 1 && bytes[0] == system_reset)
+        return {
+            {static_cast<std::uint8_t>(SystemKind::Reset), static_cast<std::uint8_t>(SoundMode::Plain), 0}};
+    if (bytes.size() < 2 || bytes.front() != exclusive || bytes.back() != end_of_exclusive) return {};
+    return decode_exclusive(bytes.subspan(1, bytes.size() - 2)).messages;
 }
 
 // ------------------------------------------------------------------------------------------------ the list
@@ -149,11 +159,28 @@ MidiReceiver::~MidiReceiver() {
 }
 
 void MidiReceiver::receive(double /*delta_s*/, std::vector<unsigned char>* bytes, void* user) {
-    const auto message = channel_message(*bytes);
-    if (!message) return;
+    constexpr unsigned char active_sensing = 0xFE;
     auto& receiver = *static_cast<MidiReceiver*>(user);
-    follow(receiver.held_, *message);
-    receiver.port_->push({*message, steady_clock_ns()});
+    const std::int64_t now_ns = steady_clock_ns();
+    const std::lock_guard lock(receiver.mutex_);
+    receiver.latest_ns_ = now_ns;
+    if (bytes->size() == 1 && bytes->front() == active_sensing) receiver.sensing_ = true;
+    if (const auto message = channel_message(*bytes)) {
+        follow(receiver.held_, *message);
+        receiver.port_->push({*message, now_ns});
+    }
+    for (const ChannelMessage& message : system_messages(*bytes)) {
+        if (static_cast<SystemKind>(message.status) == SystemKind::Reset) receiver.held_ = {};
+        receiver.port_->push({message, now_ns});
+    }
+}
+
+bool MidiReceiver::release_if_silent(std::int64_t now_ns) {
+    const std::lock_guard lock(mutex_);
+    if (!sensing_ || now_ns - latest_ns_ < sensing_limit_ns) return false;
+    sensing_ = false;  // until it comes again
+    for (const ChannelMessage& message : release_all(held_)) port_->push({message, 0});
+    return true;
 }
 
 }  // namespace jawari::host

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,6 +25,12 @@ const std::vector<std::string>& midi_system_words();
 
 /// A whole message as drivers hand it over; nothing for system messages and for what is no message.
 std::optional<ChannelMessage> channel_message(std::span<const unsigned char> bytes);
+
+/// Whole system messages that mean something here: system exclusive ones, System Reset (FF).
+std::vector<ChannelMessage> system_messages(std::span<const unsigned char> bytes);
+
+/// A sender that has sent active sensing (FE) and then nothing for this long is gone (MIDI 1.0: 300 ms).
+inline constexpr std::int64_t sensing_limit_ns = 330'000'000;
 
 /// Looks at the inputs of a system. It stays connected, so that looking again costs little.
 class MidiLister {
@@ -55,6 +62,9 @@ class MidiReceiver {
     /// Ends its thread, then lets go of what it held.
     ~MidiReceiver();
 
+    /// Lets go of what is held if active sensing has stopped; true when it does. Control thread.
+    bool release_if_silent(std::int64_t now_ns);
+
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] MidiPort& port() const { return *port_; }
 
@@ -66,7 +76,10 @@ class MidiReceiver {
 
     std::string name_;
     MidiPort* port_;
-    HeldNotes held_;  ///< of the receiving thread, until that has ended
+    std::mutex mutex_;  ///< of held_ and port_, which the receiving and the control thread use
+    HeldNotes held_;
+    std::int64_t latest_ns_ = 0;  ///< when the latest message came
+    bool sensing_ = false;        ///< active sensing has come
     std::unique_ptr<RtMidiIn> midi_;
 };
 

@@ -80,10 +80,14 @@ std::vector<NamedPreset> named_presets() {
     return presets;
 }
 
+std::optional<std::string> preset_path(const std::string& argument) {
+    if (path_exists(argument) && !is_folder(argument)) return argument;
+    return is_name(argument) ? find_in_folders(argument) : std::nullopt;
+}
+
 Outcome<Preset> load_preset(const std::string& argument) {
-    if (path_exists(argument) && !is_folder(argument)) return load_file(argument);
+    if (const auto path = preset_path(argument)) return load_file(*path);
     if (is_name(argument)) {
-        if (const auto path = find_in_folders(argument)) return load_file(*path);
         const BuiltinFile* builtin = find_builtin("instruments", argument);
         if (builtin != nullptr) return read_preset(std::string(builtin->text), argument);
     }

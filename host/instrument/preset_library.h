@@ -1,6 +1,7 @@
 // Where presets are found: files, the user's and the system's folders, and those built into the program.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ std::vector<NamedPreset> named_presets();
 /// `argument`: a file; else NAME.json in the first folder that has it; else a built-in name. A name without a
 /// preset is an error of kind File.
 Outcome<Preset> load_preset(const std::string& argument);
+
+/// The file that load_preset() would read; nothing for what is built in and for what it would not find.
+std::optional<std::string> preset_path(const std::string& argument);
 
 /// Whether load_preset() would find a preset of that name.
 bool preset_exists(const std::string& name);

@@ -38,6 +38,29 @@ constexpr std::array<Family, 17> families{{
     {107, 107, "biwa"},          // koto
 }};
 
+/// What stands in for instruments without strings to pluck or strike.
+constexpr std::array<Family, 19> stand_ins{{
+    {8, 14, "dulcimer"},          // bells and bars
+    {16, 23, "harpsichord"},      // organs, accordions, harmonica
+    {40, 42, "guitar-nylon"},     // violin, viola, cello
+    {43, 43, "bass-fretless"},    // contrabass
+    {44, 44, "guitar-12"},        // tremolo
+    {47, 47, "bass-fretless"},    // timpani
+    {48, 55, "guitar-12"},        // string ensembles, choirs, orchestra
+    {56, 57, "guitar-electric"},  // trumpet, trombone
+    {58, 58, "bass-fretted"},     // tuba
+    {59, 67, "guitar-electric"},  // trumpet with mute, horns, brass, saxophones
+    {68, 71, "guitar-nylon"},     // oboe, English horn, bassoon, clarinet
+    {72, 79, "dulcimer"},         // flutes and whistles
+    {80, 86, "guitar-electric"},  // synthetic leads
+    {87, 87, "bass-fretted"},     // bass and lead
+    {88, 103, "guitar-12"},       // synthetic pads and effects
+    {108, 108, "dulcimer"},       // kalimba
+    {109, 111, "sitar"},          // bagpipe, fiddle, shanai
+    {112, 112, "dulcimer"},       // tinkle bell
+    {114, 114, "dulcimer"},       // steel drums
+}};
+
 }  // namespace
 
 std::span<const std::string_view> numbered_presets() {
@@ -50,6 +73,12 @@ std::optional<std::string_view> program_preset(int bank, int program) {
         return presets[static_cast<std::size_t>(program)];
     }
     for (const Family& family : families)
+        if (program >= family.first && program <= family.last) return family.preset;
+    return std::nullopt;
+}
+
+std::optional<std::string_view> nearest_preset(int program) {
+    for (const Family& family : stand_ins)
         if (program >= family.first && program <= family.last) return family.preset;
     return std::nullopt;
 }

@@ -8,50 +8,6 @@ namespace jawari::host {
 
 namespace {
 
-using Type = InstrumentEventType;
-
-bool in_guitar(const InterpreterSettings& settings, int channel) {
-    return settings.guitar_channel >= 0 && channel >= settings.guitar_channel &&
-           channel < settings.guitar_channel + settings.guitar_strings;
-}
-
-int forced_string(const InterpreterSettings& settings, int channel) {
-    if (!in_guitar(settings, channel)) return -1;
-    return settings.guitar_string[static_cast<std::size_t>(channel - settings.guitar_channel)];
-}
-
-/// Velocity with the 14 bits of controller 88 (CA-031) if that came just before.
-double take_velocity(MidiChannel& channel, int value) {
-    const bool fine = channel.has_velocity_lsb;
-    channel.has_velocity_lsb = false;
-    return fine ? (value * 128 + channel.velocity_lsb) / 16383.0 : value / 127.0;
-}
-
-void note_off(MidiInterpreter& interpreter, int channel, int key, double release, MidiActions& actions) {
-    MidiChannel& state = channel_state(interpreter, channel);
-    if (state.mono_key == key) state.mono_key = -1;
-    add_event(actions, jawari::note_off(0, key, release, channel));
-}
-
-void note_on(MidiInterpreter& interpreter, int channel, int key, int velocity, MidiActions& actions) {
-    MidiChannel& state = channel_state(interpreter, channel);
-    if (velocity == 0) {
-        state.has_velocity_lsb = false;
-        note_off(interpreter, channel, key, 0.5, actions);
-        return;
-    }
-    add_event(actions, {.type = Type::NoteOn,
-                        .channel = channel,
-                        .key = key,
-                        .value = take_velocity(state, velocity),
-                        .string = forced_string(interpreter.settings, channel)});
-    const int before = state.mono_key;
-    state.mono_key = key;
-    // After the new note, so that the instrument sees them overlap: legato is its affair.
-    if (state.mono && before >= 0 && before != key)
-        add_event(actions, jawari::note_off(0, before, neutral_release_velocity, channel));
-}
-
 /// A zone's pressure is felt by all its notes: the stronger of the two counts (M1-100-UM leaves the
 /// combination to the receiver).
 void add_pressure(const MidiInterpreter& interpreter, int channel, MidiActions& actions) {
@@ -72,7 +28,10 @@ void channel_pressure(MidiInterpreter& interpreter, int channel, int value, Midi
 
 void poly_pressure(MidiInterpreter& interpreter, int channel, int key, int value, MidiActions& actions) {
     if (is_member(interpreter.zones, channel)) return;  // forbidden there: M1-100-UM
-    add_event(actions, press_note(0, key, value / 127.0, channel));
+    const MidiChannel& state = channel_state(interpreter, channel);
+    const int sounding =
+        state.open[static_cast<std::size_t>(key)] > 0 ? state.sounds[static_cast<std::size_t>(key)] : key;
+    add_event(actions, press_note(0, sounding, value / 127.0, channel));
 }
 
 void pitch_bend(MidiInterpreter& interpreter, int channel, int bend, MidiActions& actions) {
@@ -80,17 +39,37 @@ void pitch_bend(MidiInterpreter& interpreter, int channel, int bend, MidiActions
     for_each_reached(interpreter, channel, [&](int reached) { add_bend(interpreter, reached, actions); });
 }
 
-void program_change(const MidiInterpreter& interpreter, int channel, int program, MidiActions& actions) {
+/// Drums and effects by bank: XG has them in banks 64, 126 and 127 (coarse), General MIDI 2 in 120; 121 is
+/// melodic, on channel 10 too. In GS these are variations of instruments, and a message says what is a drum.
+bool is_unpitched(const MidiInterpreter& interpreter, const MidiChannel& channel) {
+    constexpr int effects = 64, gm2_drums = 120, gm2_melody = 121, xg_effect_kits = 126, xg_drums = 127;
+    if (interpreter.mode == SoundMode::Gs) return channel.rhythm_part;
+    const int bank = channel.bank_msb;
+    if (bank == gm2_drums || bank == xg_effect_kits || bank == xg_drums) return true;
+    if (bank == gm2_melody) return false;
+    if (interpreter.mode != SoundMode::Xg) return channel.rhythm_part;
+    return bank == effects || (channel.rhythm_part && !channel.has_bank);
+}
+
+void program_change(MidiInterpreter& interpreter, int channel, int program, MidiActions& actions) {
     if (is_member(interpreter.zones, channel)) return;
-    const MidiChannel& state = interpreter.channels[static_cast<std::size_t>(channel)];
-    actions.program = {true, channel, state.bank_msb * 128 + state.bank_lsb, program};
+    MidiChannel& state = channel_state(interpreter, channel);
+    const bool manages = manager_of(interpreter.zones, channel) == channel;
+    state.unpitched = !manages && is_unpitched(interpreter, state);
+    actions.program = {true, channel, state.bank_msb * 128 + state.bank_lsb, program, state.unpitched};
 }
 
 bool is_valid(const ChannelMessage& message) {
-    return message.status >= 0x80 && message.status < 0xF0 && message.data1 < 0x80 && message.data2 < 0x80;
+    const bool known = message.status >= 0x80 && (message.status < 0xF0 || is_system(message));
+    return known && message.data1 < 0x80 && message.data2 < 0x80;
 }
 
 }  // namespace
+
+bool in_guitar(const InterpreterSettings& settings, int channel) JAWARI_REALTIME {
+    return settings.guitar_channel >= 0 && channel >= settings.guitar_channel &&
+           channel < settings.guitar_channel + settings.guitar_strings;
+}
 
 void add_event(MidiActions& actions, const InstrumentEvent& event) JAWARI_REALTIME {
     if (actions.count < actions.events.size()) actions.events[actions.count++] = event;
@@ -108,16 +87,20 @@ void interpret(MidiInterpreter& interpreter, const ChannelMessage& message,
                MidiActions& actions) JAWARI_REALTIME {
     actions.count = 0;
     actions.program.asked = false;
+    actions.programs_reset = false;
+    actions.ignored = false;
     if (!is_valid(message)) return;
+    if (is_system(message)) {
+        system_message(interpreter, message, actions);
+        return;
+    }
     const int channel = channel_of(message);
     switch (kind_of(message)) {
-        case MessageKind::NoteOff: {
-            const double release = take_velocity(channel_state(interpreter, channel), message.data2);
-            note_off(interpreter, channel, message.data1, release, actions);
+        case MessageKind::NoteOff:
+            note_off_message(interpreter, channel, message.data1, message.data2, actions);
             break;
-        }
         case MessageKind::NoteOn:
-            note_on(interpreter, channel, message.data1, message.data2, actions);
+            note_on_message(interpreter, channel, message.data1, message.data2, actions);
             break;
         case MessageKind::PolyPressure:
             poly_pressure(interpreter, channel, message.data1, message.data2, actions);
@@ -139,10 +122,16 @@ void interpret(MidiInterpreter& interpreter, const ChannelMessage& message,
 
 MidiChannel fresh_channel(const MidiInterpreter& interpreter, int channel) JAWARI_REALTIME {
     MidiChannel fresh;
+    for (std::size_t key = 0; key < midi_key_count; ++key) fresh.sounds[key] = static_cast<std::uint8_t>(key);
     fresh.bend_range_semitones = interpreter.settings.bend_range_semitones;
     if (manager_of(interpreter.zones, channel) == channel) fresh.bend_range_semitones = 2;
     if (is_member(interpreter.zones, channel)) fresh.bend_range_semitones = 48;  // M1-100-UM
     fresh.mono = in_guitar(interpreter.settings, channel);
+    fresh.rhythm_part = channel == default_drum_channel;
+    fresh.unpitched = fresh.rhythm_part && manager_of(interpreter.zones, channel) < 0;
+    const auto& initial = interpreter.settings.initial;
+    fresh.volume = initial[static_cast<std::size_t>(ParameterId::Volume)];
+    fresh.legato = initial[static_cast<std::size_t>(ParameterId::Legato)];
     return fresh;
 }
 

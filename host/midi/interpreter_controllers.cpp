@@ -43,18 +43,66 @@ bool may_reach_member(int controller) {
            (controller >= 96 && controller <= 101) || controller >= 120;
 }
 
-/// A pair of controllers sends its coarse half first, which clears the fine one (MIDI 1.0).
-void bound_controller(MidiInterpreter& interpreter, int channel, int controller, int value,
+/// A pair of controllers sends its coarse half first, which clears the fine one (MIDI 1.0). False if no
+/// binding has it.
+bool bound_controller(MidiInterpreter& interpreter, int channel, int controller, int value,
                       MidiActions& actions) {
-    apply_bindings(interpreter, MidiSource::Controller, controller, channel, control_travel(value, 7),
-                   actions);
-    if (controller >= 64) return;
+    const bool bound = apply_bindings(interpreter, MidiSource::Controller, controller, channel,
+                                      control_travel(value, 7), actions);
+    if (controller >= 64) return bound;
     const int coarse = controller % 32;
     int& kept = channel_state(interpreter, channel).coarse[static_cast<std::size_t>(coarse)];
     if (controller < 32) kept = value;
     const int fine = controller < 32 ? 0 : value;
-    apply_bindings(interpreter, MidiSource::Controller14, coarse, channel,
-                   control_travel(kept * 128 + fine, 14), actions);
+    return apply_bindings(interpreter, MidiSource::Controller14, coarse, channel,
+                          control_travel(kept * 128 + fine, 14), actions) ||
+           bound;
+}
+
+/// Notes of a channel with one voice slide into each other; with several there is nothing to slide from.
+void set_portamento(MidiInterpreter& interpreter, int channel, MidiActions& actions) {
+    const MidiChannel& state = channel_state(interpreter, channel);
+    const bool slides = state.portamento && state.mono;
+    const ParameterDeclaration& time = declaration_of(ParameterId::SlideTime);
+    const double initial = interpreter.settings.initial[static_cast<std::size_t>(ParameterId::SlideTime)];
+    const double slide_s = slides ? parameter_value(time, control_travel(state.portamento_time, 7)) : initial;
+    for_each_reached(interpreter, channel, [&](int reached) {
+        add_event(actions, set_parameter(0, ParameterId::Legato, slides ? 1 : state.legato, reached));
+        add_event(actions, set_parameter(0, ParameterId::SlideTime, slide_s, reached));
+    });
+}
+
+/// Either pedal holds.
+void add_sustain(MidiInterpreter& interpreter, int channel, MidiActions& actions) {
+    const MidiChannel& state = channel_state(interpreter, channel);
+    add_for_zone(interpreter, channel, Type::Sustain, state.sustain || state.hold_2 ? 1 : 0, actions);
+}
+
+/// Controllers that mean something unless a map has them for something else.
+bool default_controller(MidiInterpreter& interpreter, int channel, int controller, int value,
+                        MidiActions& actions) {
+    MidiChannel& state = channel_state(interpreter, channel);
+    switch (controller) {
+        case 5:
+            state.portamento_time = value;
+            if (state.portamento && state.mono) set_portamento(interpreter, channel, actions);
+            return true;
+        case 65:
+            if (state.portamento == (value >= 64)) return true;
+            state.portamento = value >= 64;
+            if (state.mono) set_portamento(interpreter, channel, actions);
+            return true;
+        case 66:
+            for_each_reached(interpreter, channel,
+                             [&](int reached) { set_sostenuto(interpreter, reached, value >= 64, actions); });
+            return true;
+        case 69:
+            state.hold_2 = value >= 64;
+            add_sustain(interpreter, channel, actions);
+            return true;
+        default:
+            return false;
+    }
 }
 
 /// "Response to Reset All Controllers", RP-015: volume, pan, bank, program, sound controllers (70 to 79) and
@@ -66,6 +114,12 @@ void reset_controllers(MidiInterpreter& interpreter, int channel, MidiActions& a
     state.target = DataTarget::None;
     state.number_msb = state.number_lsb = 127;
     state.has_velocity_lsb = false;
+    state.sustain = state.hold_2 = false;
+    if (state.portamento) {
+        state.portamento = false;
+        if (state.mono) set_portamento(interpreter, channel, actions);
+    }
+    set_sostenuto(interpreter, channel, false, actions);
     add_event(actions, jawari::reset_controllers(0, channel));
     if (reached_timbre(interpreter, channel) != 0.5) add_timbre(interpreter, channel, actions);
     if (is_member(interpreter.zones, channel)) return;
@@ -73,33 +127,52 @@ void reset_controllers(MidiInterpreter& interpreter, int channel, MidiActions& a
     bound_controller(interpreter, channel, 11, 127, actions);
 }
 
-/// What stays of the bends once all channels are reset: fine tuning, and a manager's bend for its members.
+/// What stays of the bends once all channels are reset: tunings, and a manager's bend for its members.
 void restore_bends(MidiInterpreter& interpreter, int channel, MidiActions& actions) {
     for_each_reached(interpreter, channel, [&](int reached) {
-        const int manager = manager_of(interpreter.zones, reached);
-        const bool bent = own_bend(channel_state(interpreter, reached)) != 0 ||
-                          (manager >= 0 && own_bend(channel_state(interpreter, manager)) != 0);
-        if (bent) add_bend(interpreter, reached, actions);
+        if (whole_bend(interpreter, reached) != 0)
+            add_bend(interpreter, reached, actions);
+        else
+            add_key_bends(interpreter, reached, 0, actions);
     });
 }
 
 /// Mode 4 of `count` channels, 0: all from this one on (MIDI 1.0).
-void set_mono(MidiInterpreter& interpreter, int channel, int count, bool mono) {
+void set_mono(MidiInterpreter& interpreter, int channel, int count, bool mono, MidiActions& actions) {
     const int all = static_cast<int>(midi_channel_count);
     const int end = mono && count != 1 ? std::min(all, count == 0 ? all : channel + count) : channel + 1;
-    for (int each = channel; each < end; ++each) channel_state(interpreter, each).mono = mono;
+    for (int each = channel; each < end; ++each) {
+        MidiChannel& state = channel_state(interpreter, each);
+        const bool changes = state.mono != mono && state.portamento;
+        state.mono = mono;
+        if (changes) set_portamento(interpreter, each, actions);
+    }
 }
 
 }  // namespace
 
-void add_bend(const MidiInterpreter& interpreter, int channel, MidiActions& actions) JAWARI_REALTIME {
+double whole_bend(const MidiInterpreter& interpreter, int channel) JAWARI_REALTIME {
     double bend = own_bend(interpreter.channels[static_cast<std::size_t>(channel)]);
     if (is_member(interpreter.zones, channel)) {
         const int manager = manager_of(interpreter.zones, channel);
         bend += own_bend(interpreter.channels[static_cast<std::size_t>(manager)]);
     }
-    bend = std::clamp(bend, -largest_bend_semitones, largest_bend_semitones);
+    return std::clamp(bend + interpreter.master_fine_semitones, -largest_bend_semitones,
+                      largest_bend_semitones);
+}
+
+void add_bend(const MidiInterpreter& interpreter, int channel, MidiActions& actions) JAWARI_REALTIME {
+    const double bend = whole_bend(interpreter, channel);
     add_event(actions, bend_channel(0, bend, channel));
+    add_key_bends(interpreter, channel, bend, actions);
+}
+
+void add_volume(const MidiInterpreter& interpreter, int channel, MidiActions& actions) JAWARI_REALTIME {
+    const double volume =
+        interpreter.channels[static_cast<std::size_t>(channel)].volume * interpreter.master_volume;
+    for_each_reached(interpreter, channel, [&](int reached) {
+        add_event(actions, set_parameter(0, ParameterId::Volume, volume, reached));
+    });
 }
 
 bool apply_bindings(MidiInterpreter& interpreter, MidiSource source, int number, int channel, double travel,
@@ -112,6 +185,12 @@ bool apply_bindings(MidiInterpreter& interpreter, MidiSource source, int number,
         if (binding.channel >= 0 && binding.channel != channel) continue;
         bound = true;
         const double value = bound_value(binding, travel);
+        if (binding.parameter == ParameterId::Volume) {
+            channel_state(interpreter, channel).volume = value;
+            add_volume(interpreter, channel, actions);
+            continue;
+        }
+        if (binding.parameter == ParameterId::Legato) channel_state(interpreter, channel).legato = value;
         for_each_reached(interpreter, channel, [&](int reached) {
             if (binding.parameter == ParameterId::BendRange) {
                 if (reached != channel) return;  // each channel of a zone has a range of its own
@@ -140,12 +219,14 @@ void control_change(MidiInterpreter& interpreter, int channel, int controller, i
         case 0:
             state.bank_msb = value;
             state.bank_lsb = 0;
+            state.has_bank = true;
             break;
         case 32:
             state.bank_lsb = value;
             break;
         case 64:
-            add_for_zone(interpreter, channel, Type::Sustain, control_travel(value, 7), actions);
+            state.sustain = value >= 64;
+            add_sustain(interpreter, channel, actions);
             break;
         case 67:
             add_for_zone(interpreter, channel, Type::SoftPedal, value / 127.0, actions);
@@ -162,8 +243,8 @@ void control_change(MidiInterpreter& interpreter, int channel, int controller, i
         default:
             if (is_reserved_controller(controller)) {
                 data_control(interpreter, channel, controller, value, actions);
-            } else {
-                bound_controller(interpreter, channel, controller, value, actions);
+            } else if (!bound_controller(interpreter, channel, controller, value, actions)) {
+                actions.ignored = !default_controller(interpreter, channel, controller, value, actions);
             }
     }
 }
@@ -184,11 +265,11 @@ void channel_mode(MidiInterpreter& interpreter, int channel, int controller, int
     }
     const Type type = controller == all_sound_off ? Type::AllSoundOff : Type::AllNotesOff;
     for_each_reached(interpreter, channel, [&](int reached) {
-        channel_state(interpreter, reached).mono_key = -1;
+        forget_notes(channel_state(interpreter, reached));
         add_event(actions, {.type = type, .channel = reached});
     });
-    if (controller == mono_on) set_mono(interpreter, channel, value, true);
-    if (controller == poly_on) set_mono(interpreter, channel, value, false);
+    if (controller == mono_on) set_mono(interpreter, channel, value, true, actions);
+    if (controller == poly_on) set_mono(interpreter, channel, value, false, actions);
 }
 
 }  // namespace jawari::host

@@ -38,6 +38,39 @@ void data_control(MidiInterpreter& interpreter, int channel, int controller, int
 void channel_mode(MidiInterpreter& interpreter, int channel, int controller, int value,
                   MidiActions& actions) JAWARI_REALTIME;
 
+/// Note messages: velocity prefix, mono, tunings; each note-off ends the oldest note of its key, and the
+/// instrument hears of the last one (interpreter_notes.cpp).
+void note_on_message(MidiInterpreter& interpreter, int channel, int key, int velocity,
+                     MidiActions& actions) JAWARI_REALTIME;
+void note_off_message(MidiInterpreter& interpreter, int channel, int key, int velocity,
+                      MidiActions& actions) JAWARI_REALTIME;
+
+/// Forgets which keys are down: the instrument has let go of all.
+void forget_notes(MidiChannel& channel) JAWARI_REALTIME;
+
+/// The sostenuto pedal: keys that are down when it goes down stay until it goes up.
+void set_sostenuto(MidiInterpreter& interpreter, int channel, bool down,
+                   MidiActions& actions) JAWARI_REALTIME;
+
+/// Bends of the keys that are off the instrument's: they have the channel's bend, and their own.
+void add_key_bends(const MidiInterpreter& interpreter, int channel, double bend,
+                   MidiActions& actions) JAWARI_REALTIME;
+
+/// After a change of tuning: what sounds follows it.
+void retune_notes(MidiInterpreter& interpreter, int channel, MidiActions& actions) JAWARI_REALTIME;
+
+/// The channel's bend, its zone's and the instrument's [semitones].
+double whole_bend(const MidiInterpreter& interpreter, int channel) JAWARI_REALTIME;
+
+/// Volume times master volume, to all that the channel reaches.
+void add_volume(const MidiInterpreter& interpreter, int channel, MidiActions& actions) JAWARI_REALTIME;
+
+/// A SystemKind message.
+void system_message(MidiInterpreter& interpreter, const ChannelMessage& message,
+                    MidiActions& actions) JAWARI_REALTIME;
+
+bool in_guitar(const InterpreterSettings& settings, int channel) JAWARI_REALTIME;
+
 /// State of a channel that belongs to these zones, as after power-up.
 MidiChannel fresh_channel(const MidiInterpreter& interpreter, int channel) JAWARI_REALTIME;
 

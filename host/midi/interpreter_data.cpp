@@ -11,6 +11,8 @@ namespace {
 
 constexpr int bend_sensitivity = 0;
 constexpr int fine_tuning = 1;
+constexpr int coarse_tuning = 2;
+constexpr int tuning_program = 3;
 constexpr int mpe_configuration = 6;
 
 /// A member's range is that of all members of its zone (M1-100-UM).
@@ -42,13 +44,19 @@ void configure_zone(MidiInterpreter& interpreter, int manager, int members, Midi
         MidiChannel fresh = fresh_channel(interpreter, channel);
         fresh.bank_msb = channel_state(interpreter, channel).bank_msb;
         fresh.bank_lsb = channel_state(interpreter, channel).bank_lsb;
+        fresh.has_bank = channel_state(interpreter, channel).has_bank;
+        fresh.volume = channel_state(interpreter, channel).volume;
+        fresh.legato = channel_state(interpreter, channel).legato;
         channel_state(interpreter, channel) = fresh;
     }
 }
 
 void set_registered(MidiInterpreter& interpreter, int channel, MidiActions& actions) {
     MidiChannel& state = channel_state(interpreter, channel);
-    if (state.number_msb != 0) return;
+    if (state.number_msb != 0) {
+        actions.ignored = true;
+        return;
+    }
     switch (state.number_lsb) {
         case bend_sensitivity:
             set_bend_range(interpreter, channel, state.data_msb + state.data_lsb / 100.0, actions);
@@ -58,7 +66,16 @@ void set_registered(MidiInterpreter& interpreter, int channel, MidiActions& acti
             for_each_reached(interpreter, channel,
                              [&](int reached) { add_bend(interpreter, reached, actions); });
             break;
+        case coarse_tuning:  // its fine half means nothing
+            state.coarse_tuning_semitones = state.data_msb - 64;
+            break;
+        case tuning_program:
+            state.tuning_program = state.data_msb;
+            for_each_reached(interpreter, channel,
+                             [&](int reached) { retune_notes(interpreter, reached, actions); });
+            break;
         default:
+            actions.ignored = true;
             break;
     }
 }
@@ -69,8 +86,9 @@ void set_data(MidiInterpreter& interpreter, int channel, MidiActions& actions) {
     if (state.target == DataTarget::Registered) {
         set_registered(interpreter, channel, actions);
     } else if (state.target == DataTarget::NonRegistered) {
-        apply_bindings(interpreter, MidiSource::Nrpn, state.number_msb * 128 + state.number_lsb, channel,
-                       control_travel(state.data_msb * 128 + state.data_lsb, 14), actions);
+        actions.ignored =
+            !apply_bindings(interpreter, MidiSource::Nrpn, state.number_msb * 128 + state.number_lsb, channel,
+                            control_travel(state.data_msb * 128 + state.data_lsb, 14), actions);
     }
 }
 
@@ -86,7 +104,17 @@ void recall_data(MidiChannel& state) {
         const int value = static_cast<int>(std::lround(8192 * (1 + state.fine_tuning_semitones)));
         state.data_msb = std::min(value, 16383) / 128;
         state.data_lsb = std::min(value, 16383) % 128;
+    } else if (state.number_lsb == coarse_tuning) {
+        state.data_msb = state.coarse_tuning_semitones + 64;
+    } else if (state.number_lsb == tuning_program) {
+        state.data_msb = state.tuning_program;
     }
+}
+
+/// Whether the coarse half is all of it: steps are of that.
+bool is_coarse(const MidiChannel& state) {
+    return state.target == DataTarget::Registered && state.number_msb == 0 &&
+           (state.number_lsb == coarse_tuning || state.number_lsb == tuning_program);
 }
 
 /// RP-018: by one of the fine half, with carry; cents of the bend range carry at 100.
@@ -96,7 +124,8 @@ void step_data(MidiInterpreter& interpreter, int channel, int step, MidiActions&
                        state.number_lsb == bend_sensitivity;
     const int carry = cents ? 100 : 128;
     const int top = cents ? 9600 : 16383;
-    const int value = std::clamp(state.data_msb * carry + state.data_lsb + step, 0, top);
+    const int size = is_coarse(state) ? 128 : 1;
+    const int value = std::clamp(state.data_msb * carry + state.data_lsb + step * size, 0, top);
     state.data_msb = value / carry;
     state.data_lsb = value % carry;
     set_data(interpreter, channel, actions);

@@ -53,7 +53,8 @@ bool AudioThread::obey(const LiveCommand& command) JAWARI_REALTIME {
 bool AudioThread::panic() JAWARI_REALTIME {
     constexpr std::uint8_t all_sound_off = 120;
     constexpr std::uint8_t reset_all_controllers = 121;
-    constexpr std::size_t most_events_of_panic = 2 * midi_channel_count * most_events_per_message;
+    // Without notes a reset of a channel comes to less than its bindings of all controllers.
+    constexpr std::size_t most_events_of_panic = 2 * midi_channel_count * 4 * most_bindings;
     if (events_.size() + most_events_of_panic > events_.capacity()) return false;
     for (std::uint8_t channel = 0; channel < midi_channel_count; ++channel) {
         const auto status = static_cast<std::uint8_t>(0xB0 + channel);

@@ -11,6 +11,7 @@ namespace {
 
 /// 1 in the highest bit: something was asked for.
 constexpr std::uint32_t asked_bit = 1U << 31U;
+constexpr std::uint32_t unpitched_bit = 1U << 30U;
 
 constexpr double most_gain = 1e6;
 
@@ -40,13 +41,15 @@ std::int64_t steady_clock_ns() noexcept {
 }
 
 std::uint32_t pack(const ProgramRequest& request) JAWARI_REALTIME {
-    return asked_bit | static_cast<std::uint32_t>(request.bank) << 11U |
+    return asked_bit | (request.unpitched ? unpitched_bit : 0) |
+           static_cast<std::uint32_t>(request.bank) << 11U |
            static_cast<std::uint32_t>(request.channel) << 7U | static_cast<std::uint32_t>(request.program);
 }
 
 ProgramRequest unpack_program(std::uint32_t packed) {
     return {(packed & asked_bit) != 0, static_cast<int>(packed >> 7U & 15U),
-            static_cast<int>(packed >> 11U & 0x3FFFU), static_cast<int>(packed & 127U)};
+            static_cast<int>(packed >> 11U & 0x3FFFU), static_cast<int>(packed & 127U),
+            (packed & unpitched_bit) != 0};
 }
 
 struct LivePlayer::Shared {

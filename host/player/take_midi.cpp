@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/platform.h"
+#include "midi/system_message.h"
 #include "player/take_sound.h"
 
 namespace jawari::host {
@@ -105,6 +106,14 @@ void TakeMidi::add(const CapturedMessage& captured) {
     append_delta_time(pending_, frame - frame_);
     frame_ = frame;
     const ChannelMessage& message = captured.message;
+    if (is_system(message)) {
+        const auto body = private_exclusive(message);
+        pending_.push_back(static_cast<char>(0xF0));
+        append_variable_length(pending_, static_cast<std::uint32_t>(body.size() + 1));
+        pending_.append(body.begin(), body.end());
+        pending_.push_back(static_cast<char>(0xF7));
+        return;
+    }
     pending_.push_back(static_cast<char>(message.status));
     pending_.push_back(static_cast<char>(message.data1));
     if (data_bytes(message.status) == 2) pending_.push_back(static_cast<char>(message.data2));

@@ -4,11 +4,13 @@
 #include <utility>
 
 #include "base/builtin.h"
+#include "base/file_plan.h"
 #include "base/output_file.h"
 #include "base/platform.h"
 #include "base/progress.h"
 #include "base/text.h"
 #include "commands/bench_latency/report.h"
+#include "instrument/preset_library.h"
 #include "plot/gnuplot.h"
 
 namespace jawari::host {
@@ -100,6 +102,15 @@ bool is_chosen(const LatencyOptions& options, const std::vector<Job>& jobs, cons
     return static_cast<std::size_t>(heavier) < heaviest_presets;
 }
 
+MaybeError check_files(const LatencyOptions& options) {
+    FilePlan files(options.overwrite);
+    for (const std::string& preset : options.presets)
+        files.add_input("--preset", preset_path(preset).value_or(""));
+    if (auto error = files.add_output("--json", options.json, FileContent::Json)) return error;
+    if (auto error = files.add_output("--csv", options.csv, FileContent::Table)) return error;
+    return files.add_output("--plot", options.plot, FileContent::Picture);
+}
+
 MaybeError write_report(const LatencyReport& report, const LatencyOptions& options) {
     if (!options.csv.empty()) {
         if (auto error = write_text(options.csv, latency_csv(report))) return error;
@@ -116,6 +127,7 @@ MaybeError write_report(const LatencyReport& report, const LatencyOptions& optio
 }  // namespace
 
 MaybeError bench_latency(const LatencyOptions& options) {
+    if (auto error = check_files(options)) return error;
     if (!options.plot.empty()) {
         if (auto error = plot::can_plot(options.plot)) return error;
     }

@@ -82,6 +82,8 @@ void add_bench_latency_command(CLI::App& app, Command& command) {
         ->type_name("FILE");
     bench->add_option("--csv", options->csv, "The table as CSV")->type_name("FILE");
     bench->add_option("--plot", options->plot, "Histograms: FILE.svg or FILE.png")->type_name("FILE");
+    bench->add_flag("--overwrite", options->overwrite,
+                    "Outputs may replace files of other kinds; never what is read");
     bench->footer(
         "Plays as hard as MIDI allows: struck chords, runs, bends, palm mutes, legato "
         "(docs/player/player.md).\n"

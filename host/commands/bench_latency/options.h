@@ -18,10 +18,11 @@ struct LatencyOptions {
     std::uint32_t rate_hz = 48000;
     Quality quality = Quality::Live;
     std::uint32_t seed = 1;
-    bool governor = false;  ///< quality may drop, as when playing live
-    std::string json;       ///< a file; `-`: standard output instead of the table
-    std::string csv;        ///< a file
-    std::string plot;       ///< histograms, .svg or .png
+    bool governor = false;   ///< quality may drop, as when playing live
+    std::string json;        ///< a file; `-`: standard output instead of the table
+    std::string csv;         ///< a file
+    std::string plot;        ///< histograms, .svg or .png
+    bool overwrite = false;  ///< replaces files of other kinds too
 };
 
 inline constexpr std::size_t heaviest_presets = 3;

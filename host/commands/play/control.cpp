@@ -55,7 +55,10 @@ Outcome<LiveSettings> live_settings(const PlayOptions& options, const Instrument
     settings.limiter_dbfs = options.limiter_dbfs;
     settings.overload.enabled = !options.fixed_quality.value_or(false);
     for (const auto& [parameter, value] : options.parameters)
-        if (parameter == ParameterId::BendRange) settings.interpreter.bend_range_semitones = value;
+        if (parameter == ParameterId::BendRange)
+            settings.interpreter.bend_range_semitones = value;
+        else
+            settings.interpreter.initial[static_cast<std::size_t>(parameter)] = value;
     if (options.midi_map) {
         const auto map = load_midi_map(*options.midi_map);
         if (!map) return map.error();
@@ -163,7 +166,7 @@ void PlayControl::tick(std::int64_t now_ns) {
 
 std::optional<std::string> PlayControl::asked_preset() {
     const auto request = player_.program_request();
-    if (!request || !follows_programs_ || request->channel == drum_channel) return std::nullopt;
+    if (!request || !follows_programs_ || request->unpitched) return std::nullopt;
     const auto preset = program_preset(request->bank, request->program);
     if (!preset || *preset == preset_ || !preset_exists(std::string(*preset))) return std::nullopt;
     return std::string(*preset);

@@ -142,6 +142,7 @@ MaybeError Session::tick() {
         watch_recording();
         if (auto error = watch_audio(now)) return error;
     }
+    midi_->watch(steady_clock_ns());
     if (now - polled_s_ >= poll_period_s) {
         polled_s_ = now;
         midi_->poll();

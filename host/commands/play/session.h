@@ -62,6 +62,7 @@ class Session {
 
     void watch_recording();
     void tell(const Outcome<std::string>& line);
+    [[nodiscard]] MaybeError check_recording(const std::string& sound, const std::string& midi) const;
     MaybeError start_recording(const std::string& sound, const std::string& midi, bool overwrite);
     Outcome<std::string> stop_recording();
 

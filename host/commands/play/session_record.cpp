@@ -3,8 +3,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/file_plan.h"
+#include "base/sound_file.h"
 #include "base/text.h"
 #include "commands/play/session.h"
+#include "instrument/preset_library.h"
 
 namespace jawari::host {
 
@@ -23,8 +26,23 @@ std::string seconds(std::uint64_t frames, double rate_hz) {
 
 }  // namespace
 
+/// --force is for takes alone: what the performance was made from stays.
+MaybeError Session::check_recording(const std::string& sound, const std::string& midi) const {
+    if (!sound.empty() && container_of(sound) != SoundContainer::Wav)
+        return usage_error("record", sound, "a name that ends in .wav: takes grow in place");
+    FilePlan files(true);  // whether there may be an older take is the recorder's affair
+    files.add_input("preset", preset_path(control_->preset()).value_or(""));
+    files.add_input("--tuning", options_.tuning.value_or(""));
+    files.add_input("--keyboard-map", options_.keyboard_map.value_or(""));
+    files.add_input("--midi-map", options_.midi_map.value_or(""));
+    files.add_input("--config", options_.config.empty() ? default_config_path() : options_.config);
+    if (auto error = files.add_output("record", sound, FileContent::Sound)) return error;
+    return files.add_output("record", midi, FileContent::Midi);
+}
+
 MaybeError Session::start_recording(const std::string& sound, const std::string& midi, bool overwrite) {
     if (recorder_) return Error{ErrorKind::Usage, "record: a recording is under way; record stop ends it"};
+    if (auto error = check_recording(sound, midi)) return error;
     RecordingSettings settings;
     settings.sound = sound;
     settings.midi = midi;

@@ -10,16 +10,17 @@ namespace jawari::host {
 
 namespace {
 
-SampleEncoding encoding(SampleFormat format) {
+SampleEncoding encoding(SampleFormat format, SoundContainer container) {
+    if (container == SoundContainer::Ogg) return {SF_FORMAT_VORBIS, 0, container};
     switch (format) {
         case SampleFormat::Pcm16:
-            return {SF_FORMAT_PCM_16, 2};
+            return {SF_FORMAT_PCM_16, 2, container};
         case SampleFormat::Pcm24:
-            return {SF_FORMAT_PCM_24, 3};
+            return {SF_FORMAT_PCM_24, 3, container};
         case SampleFormat::Float:
             break;
     }
-    return {SF_FORMAT_FLOAT, 4};
+    return {SF_FORMAT_FLOAT, 4, container};
 }
 
 }  // namespace
@@ -29,7 +30,8 @@ Outcome<AudioFile> AudioFile::create(const std::string& path, std::size_t channe
     auto file = OutputFile::create(path);
     if (!file) return file.error();
     auto sound = SoundFile::create(std::move(file.value()), format.rate_hz, channels,
-                                   encoding(format.samples), format.most_frames, format.tags);
+                                   encoding(format.samples, container_of(path).value_or(SoundContainer::Wav)),
+                                   format.most_frames, format.tags);
     if (!sound) return sound.error();
     return AudioFile(std::move(sound.value()), format.samples);
 }

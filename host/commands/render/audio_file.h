@@ -1,4 +1,4 @@
-// A WAV file for listening: PCM is clamped at full scale, float is kept as it is. Appears whole or not at
+// A sound file for listening: PCM is clamped at full scale, float is kept as it is. Appears whole or not at
 // all.
 #pragma once
 

@@ -48,7 +48,8 @@ void humanise_part(ScorePart& part, Random& random, double rate_hz) {
     for (TimedEvent& timed : part.events) {
         InstrumentEvent& event = timed.event;
         const bool on = event.type == InstrumentEventType::NoteOn;
-        if (!on && event.type != InstrumentEventType::NoteOff) continue;
+        const bool own_bend = event.type == InstrumentEventType::Bend && event.key != every_key;
+        if (!on && !own_bend && event.type != InstrumentEventType::NoteOff) continue;
         Key& key = keys[static_cast<std::size_t>(event.channel)][static_cast<std::size_t>(event.key)];
         std::uint64_t delay = key.delay;
         if (on) {

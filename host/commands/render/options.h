@@ -16,10 +16,15 @@ namespace jawari::host {
 struct RenderOptions {
     std::vector<std::string> midi;  ///< files; `-`: standard input
     std::string preset = "auto";    ///< a file or a name; auto: each channel's program chooses
-    std::string out;                ///< a WAV file; `-`: standard output; a folder for several files
-    std::string stems;              ///< a WAV file, or a folder with a slash at its end; empty: none
-    std::string stats;              ///< JSON; empty: none; `-`: standard output
-    std::string plot;               ///< waveform and spectrogram; empty: none
+    std::string out;    ///< a sound file, of the format of its name's ending; `-`: standard output; a folder
+                        ///< for several files
+    std::string stems;  ///< a WAV file, or a folder with a slash at its end; empty: none
+    std::string stats;  ///< JSON; empty: none; `-`: standard output
+    std::string plot;   ///< waveform and spectrogram; empty: none
+    bool overwrite = false;     ///< replaces files of other kinds too
+    bool quiet = false;         ///< neither a summary nor notices; warnings and errors are shown
+    bool only_strings = false;  ///< auto: programs without strings are silent
+    bool strict = false;        ///< files that depart from the standard are refused; warnings are an error
     std::uint32_t rate_hz = 48000;
     std::optional<SampleFormat> format;  ///< nothing: PCM of 24 bits
     double gain_db = 0;
@@ -32,10 +37,12 @@ struct RenderOptions {
     std::string keyboard_map;  ///< a .kbm file; empty: the default map
     bool move_frets = false;
     std::string midi_map;                                    ///< JSON; empty: the default map
+    double tempo_percent = 100;                              ///< of the file's tempo
+    std::vector<int> mute, solo;                             ///< channels, 1 to 16; solo: no others
+    int transpose_semitones = 0;                             ///< of all notes but drums
     int guitar_channel = 0;                                  ///< 1 to 16; 0: no guitar mode
     std::vector<std::pair<ParameterId, double>> parameters;  ///< in each parameter's unit
     unsigned jobs = 0;                                       ///< 0: one a processor
-    bool strict = false;                                     ///< warnings are an error
 };
 
 inline constexpr const char* automatic_preset = "auto";

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/file_plan.h"
 #include "base/interrupt.h"
 #include "base/output_file.h"
 #include "base/text.h"
@@ -40,19 +41,6 @@ MaybeError check_several(const RenderOptions& options) {
         if (!value->empty()) return usage_error(option, *value, "only with one MIDI file");
     if (std::count(options.midi.begin(), options.midi.end(), "-") > 0)
         return usage_error("MIDI", "-", "standard input only as the one file");
-    return std::nullopt;
-}
-
-MaybeError check_names(const RenderOptions& options) {
-    std::set<std::string> taken;
-    const std::pair<const char*, const std::string*> outputs[] = {{"--out", &options.out},
-                                                                  {"--stems", &options.stems},
-                                                                  {"--stats", &options.stats},
-                                                                  {"--plot", &options.plot}};
-    for (const auto& [option, value] : outputs) {
-        const bool shared = !value->empty() && !is_folder(*value) && !taken.insert(*value).second;
-        if (shared) return usage_error(option, *value, "another name than that of the other outputs");
-    }
     return std::nullopt;
 }
 
@@ -86,6 +74,60 @@ Outcome<std::vector<RenderJob>> jobs_of(const RenderOptions& options) {
     return jobs;
 }
 
+// ------------------------------------------------------------ files
+
+/// What a name's ending asks for must be a format that is written here, and hold such samples.
+MaybeError check_container(const char* option, const std::string& path, const RenderOptions& options) {
+    if (path.empty() || is_folder(path)) return std::nullopt;
+    const auto container = container_of(path);
+    if (!container) return usage_error(option, path, "a name that ends in one of " + container_endings());
+    if (options.format && !holds(*container, *options.format))
+        return usage_error("--format", "given for " + path,
+                           *container == SoundContainer::Ogg ? "none: Vorbis has no such samples"
+                                                             : "pcm16 or pcm24 in FLAC");
+    return std::nullopt;
+}
+
+FileContent content_of_sound(const std::string& path) {
+    return container_of(path) == SoundContainer::Raw ? FileContent::RawSound : FileContent::Sound;
+}
+
+/// The last folder of a path is made; others must be there.
+MaybeError make_folders(const RenderOptions& options) {
+    for (const std::string& path : {options.out, options.stems})
+        if (path.ends_with('/'))
+            if (auto error = make_folder(path)) return error;
+    return std::nullopt;
+}
+
+/// Presets: the one that is asked for, or all that programs may choose.
+void add_preset_inputs(const RenderOptions& options, FilePlan& files) {
+    if (options.preset != automatic_preset) {
+        files.add_input("--preset", preset_path(options.preset).value_or(""));
+        return;
+    }
+    for (const NamedPreset& preset : named_presets()) files.add_input("preset " + preset.name, preset.path);
+}
+
+MaybeError plan_files(const RenderOptions& options, const std::vector<RenderJob>& jobs, FilePlan& files) {
+    for (const std::string& midi : options.midi) files.add_input("MIDI", midi);
+    add_preset_inputs(options, files);
+    files.add_input("--tuning", options.tuning);
+    files.add_input("--keyboard-map", options.keyboard_map);
+    files.add_input("--midi-map", options.midi_map);
+    for (const RenderJob& job : jobs) {
+        if (auto error = check_container("--out", job.out, options)) return error;
+        if (auto error = files.add_output("--out", job.out, content_of_sound(job.out))) return error;
+    }
+    if (!is_folder(options.stems)) {
+        if (auto error = check_container("--stems", options.stems, options)) return error;
+        if (auto error = files.add_output("--stems", options.stems, content_of_sound(options.stems)))
+            return error;
+    }
+    if (auto error = files.add_output("--stats", options.stats, FileContent::Json)) return error;
+    return files.add_output("--plot", options.plot, FileContent::Picture);
+}
+
 // ------------------------------------------------------------ what all share
 
 Outcome<InstrumentSettings> instrument_settings(const RenderOptions& options) {
@@ -100,9 +142,9 @@ Outcome<InstrumentSettings> instrument_settings(const RenderOptions& options) {
     return settings;
 }
 
-std::optional<std::string> general_midi_preset(int channel, int bank, int program) {
-    if (channel == drum_channel) return std::nullopt;
-    const auto preset = program_preset(bank, program);
+std::optional<std::string> general_midi_preset(int bank, int program, bool only_strings) {
+    auto preset = program_preset(bank, program);
+    if (!preset && !only_strings && bank != numbered_bank) preset = nearest_preset(program);
     if (!preset || !preset_exists(std::string(*preset))) return std::nullopt;
     return std::string(*preset);
 }
@@ -114,13 +156,29 @@ void set_parameters(const RenderOptions& options, ScoreRules& rules) {
             rules.interpreter.bend_range_semitones = value;
         } else {
             rules.parameters.emplace_back(parameter, value);
+            rules.interpreter.initial[static_cast<std::size_t>(parameter)] = value;
         }
     }
+}
+
+/// Bit c: channel c, from 0.
+unsigned channel_bits(const std::vector<int>& channels) {
+    unsigned bits = 0;
+    for (const int channel : channels) bits |= 1U << static_cast<unsigned>(channel - 1);
+    return bits;
+}
+
+unsigned muted_channels(const RenderOptions& options) {
+    const unsigned others = options.solo.empty() ? 0 : 0xFFFFU & ~channel_bits(options.solo);
+    return others | channel_bits(options.mute);
 }
 
 Outcome<ScoreRules> score_rules(const RenderOptions& options, const InstrumentSettings& instruments) {
     ScoreRules rules;
     rules.preset = options.preset;
+    rules.interpreter.transpose_semitones = options.transpose_semitones;
+    rules.tempo = options.tempo_percent / 100;
+    rules.muted = muted_channels(options);
     set_parameters(options, rules);
     if (!options.midi_map.empty()) {
         const auto map = load_midi_map(options.midi_map);
@@ -128,7 +186,9 @@ Outcome<ScoreRules> score_rules(const RenderOptions& options, const InstrumentSe
         rules.interpreter.map = map.value();
     }
     if (options.preset == automatic_preset) {
-        rules.choose = general_midi_preset;
+        rules.choose = [only_strings = options.only_strings](int bank, int program) {
+            return general_midi_preset(bank, program, only_strings);
+        };
         return rules;
     }
     const auto preset = load_with(options.preset, instruments);
@@ -144,7 +204,7 @@ Outcome<ScoreRules> score_rules(const RenderOptions& options, const InstrumentSe
 // ----------------------------------------------------------------------------------------------- the work
 
 MaybeError print_summary(const RenderJob& job, const RenderOptions& options, const RenderedJob& result) {
-    if (!options.stats.empty() || options.out == "-") return std::nullopt;
+    if (!options.stats.empty() || options.out == "-" || options.quiet) return std::nullopt;
     auto output = OutputFile::create("-");
     if (!output) return output.error();
     std::string text = stats_summary(result.stats);
@@ -154,10 +214,10 @@ MaybeError print_summary(const RenderJob& job, const RenderOptions& options, con
 }
 
 /// The number of warnings among them.
-std::size_t print_messages(const RenderedJob& result) {
+std::size_t print_messages(const RenderedJob& result, bool quiet) {
     std::size_t warnings = 0;
     for (const std::string& message : result.messages) {
-        std::fprintf(stderr, "%s\n", message.c_str());
+        if (!quiet || !message.starts_with("notice: ")) std::fprintf(stderr, "%s\n", message.c_str());
         warnings += message.starts_with("warning: ") ? 1 : 0;
     }
     return warnings;
@@ -223,7 +283,7 @@ MaybeError print_results(const std::vector<RenderJob>& jobs, const RenderOptions
             fail(result->error());
             continue;
         }
-        const std::size_t warnings = print_messages(result->value());
+        const std::size_t warnings = print_messages(result->value(), options.quiet);
         if (auto error = print_summary(jobs[i], options, result->value())) return error;
         if (auto error = strict_error(jobs[i].midi, warnings); error && options.strict) fail(*error);
     }
@@ -233,16 +293,19 @@ MaybeError print_results(const std::vector<RenderJob>& jobs, const RenderOptions
 }  // namespace
 
 MaybeError render(const RenderOptions& options) {
-    for (const auto check : {check_several, check_names, check_dependencies})
+    for (const auto check : {check_several, check_dependencies})
         if (auto error = check(options)) return error;
     const auto jobs = jobs_of(options);
     if (!jobs) return jobs.error();
+    FilePlan files(options.overwrite);
+    if (auto error = plan_files(options, jobs.value(), files)) return error;
     const auto settings = instrument_settings(options);
     if (!settings) return settings.error();
     const auto rules = score_rules(options, settings.value());
     if (!rules) return rules.error();
+    if (auto error = make_folders(options)) return error;
     InstrumentCache instruments(settings.value());
-    const RenderContext context{options, rules.value(), instruments};
+    const RenderContext context{options, rules.value(), instruments, files};
 
     Workers workers(jobs.value(), context);
     const std::size_t wanted =

@@ -101,7 +101,35 @@ void add_music_options(CLI::App& app, RenderOptions& options) {
     app.add_option("--keyboard-map", options.keyboard_map, "Scala keyboard map of the scale")
         ->type_name("FILE.kbm")
         ->check(some_name());
+    app.add_flag("--only-strings", options.only_strings,
+                 "With auto: programs without strings are silent instead of played by the nearest preset");
+    app.add_flag(
+        "--strict", options.strict,
+        "Refuse MIDI files that depart from the standard instead of repairing what they lack; warnings are "
+        "an error (exit code 7), the outputs are written nevertheless");
     app.add_flag("--move-frets", options.move_frets, "Move the frets to the notes of the tuning");
+    app.add_option("--tempo", options.tempo_percent, "Tempo, 10 to 1000 % of the file's, default 100")
+        ->type_name("PERCENT")
+        ->check(number_between(10, 1000));
+    const auto channel = whole_between(1, 16, "");
+    app.add_option("--mute", options.mute, "Channels whose notes are left out, 1 to 16; may be repeated")
+        ->type_name("CHANNEL[,CHANNEL...]")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(channel);
+    app.add_option("--solo", options.solo, "Channels whose notes alone are played; may be repeated")
+        ->type_name("CHANNEL[,CHANNEL...]")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(channel);
+    app.add_option_function<std::string>(
+           "--transpose",
+           [&options](const std::string& text) {
+               options.transpose_semitones = static_cast<int>(*parse_number(text));
+           },
+           "Semitones by which all notes but drums are moved, -48 to 48")
+        ->type_name("SEMITONES")
+        ->check(whole_between(-48, 48, ""));
     app.add_option("--midi-map", options.midi_map, "Assigns controllers to parameters (docs/formats/midi.md)")
         ->type_name("FILE.json")
         ->check(some_name());
@@ -126,13 +154,15 @@ void add_music_options(CLI::App& app, RenderOptions& options) {
 
 void add_output_options(CLI::App& app, RenderOptions& options) {
     app.add_option("-o,--out", options.out,
-                   "WAV file; a folder for several MIDI files; - for standard output")
+                   "Sound file: .wav, .flac, .ogg, .aiff, .caf, .w64 or .raw; a folder for several MIDI "
+                   "files; - for WAV on "
+                   "standard output")
         ->required()
-        ->type_name("FILE.wav")
+        ->type_name("FILE")
         ->check(some_name());
     app.add_option("--stems", options.stems,
                    "Each string separately: one channel each in one WAV file, or with FOLDER/ one file each")
-        ->type_name("FILE.wav|FOLDER/")
+        ->type_name("FILE|FOLDER/")
         ->check(some_name());
     app.add_option("--stats", options.stats, "Statistics as JSON; - for standard output")
         ->type_name("FILE.json")
@@ -140,14 +170,15 @@ void add_output_options(CLI::App& app, RenderOptions& options) {
     app.add_option("--plot", options.plot, "Waveform and spectrogram: FILE.svg or FILE.png")
         ->type_name("FILE")
         ->check(picture());
+    app.add_flag("-q,--quiet", options.quiet, "Print neither a summary nor notices");
+    app.add_flag("--overwrite", options.overwrite,
+                 "Outputs may replace files of other kinds; never what is read");
     app.add_option_function<std::string>(
            "--jobs",
            [&options](const std::string& text) { options.jobs = static_cast<unsigned>(*parse_number(text)); },
            "Number of files rendered at the same time, default one per processor")
         ->type_name("N")
         ->check(whole_between(1, 256, ""));
-    app.add_flag("--strict", options.strict,
-                 "Warnings are an error (exit code 7); the outputs are written nevertheless");
 }
 
 }  // namespace

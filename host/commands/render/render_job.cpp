@@ -1,5 +1,6 @@
 #include "commands/render/render_job.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -16,6 +17,7 @@
 #include "cli/contact_warnings.h"
 #include "commands/render/audio_file.h"
 #include "commands/render/humanise.h"
+#include "commands/render/note_offs.h"
 #include "commands/render/render_score.h"
 #include "commands/render/stem_files.h"
 #include "formats/midi_file/midi_file.h"
@@ -26,17 +28,42 @@ namespace jawari::host {
 
 namespace {
 
+constexpr std::size_t most_repair_notices = 20;
+
 std::string file_name(const std::string& path) {
     return path == "-" ? "standard input" : std::filesystem::path(path).filename().string();
 }
 
-Outcome<Score> load_score(const RenderJob& job, const RenderContext& context) {
+std::string input_name(const RenderJob& job) {
+    return job.midi == "-" ? "standard input" : job.midi;
+}
+
+Outcome<MidiFile> load_midi(const RenderJob& job, const RenderOptions& options) {
     const auto text = read_file(job.midi, max_midi_file_bytes);
     if (!text) return text.error();
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.value().data());
-    const auto file = parse_midi(std::span(bytes, text.value().size()));
-    if (!file) return invalid_input(job.midi == "-" ? "standard input" : job.midi, file.failure());
+    auto file = parse_midi(std::span(bytes, text.value().size()),
+                           options.strict ? MidiReading::Strict : MidiReading::Lenient);
+    if (!file) return invalid_input(input_name(job), file.failure());
+    file.value().events = with_note_offs(file.value().events);
+    return std::move(file.value());
+}
+
+void add_repairs(const RenderJob& job, const std::vector<MidiRepair>& repairs, RenderedJob& result) {
+    const std::string name = "notice: " + printable(input_name(job)) + ": ";
+    for (std::size_t i = 0; i < std::min(repairs.size(), most_repair_notices); ++i)
+        result.messages.push_back(name + printable(text_of(repairs[i])));
+    if (repairs.size() > most_repair_notices)
+        result.messages.push_back(name + std::to_string(repairs.size() - most_repair_notices) +
+                                  " more kinds of repairs; --strict refuses the file");
+}
+
+Outcome<Score> load_score(const RenderJob& job, const RenderContext& context, RenderedJob& result) {
     const RenderOptions& options = context.options;
+    const auto file = load_midi(job, options);
+    if (!file) return file.error();
+    add_repairs(job, file.value().repairs, result);
+    result.stats.repairs = file.value().repairs;
     Score score = make_score(file.value(), options.rate_hz, context.rules);
     if (options.seed) humanise(score, *options.seed, options.rate_hz);
     end_notes(score);
@@ -93,7 +120,8 @@ Outcome<Outputs> open_outputs(const RenderJob& job, const RenderContext& context
 MaybeError open_stems(const RenderJob& job, const RenderContext& context, std::uint64_t frames,
                       const std::vector<std::string>& names, Outputs& outputs) {
     if (context.options.stems.empty()) return std::nullopt;
-    auto stems = StemFiles::create(context.options.stems, names, format_of(job, context, frames));
+    auto stems =
+        StemFiles::create(context.options.stems, names, format_of(job, context, frames), context.files);
     if (!stems) return stems.error();
     outputs.stems.emplace(std::move(stems.value()));
     return std::nullopt;
@@ -148,6 +176,10 @@ void add_notices(const Score& score, const Ensemble& ensemble, const RenderConte
         result.messages.push_back(
             formatted("notice: %llu notes are silent: drums, or programs without strings",
                       static_cast<unsigned long long>(score.silent_notes)));
+    for (const IgnoredKind& kind : score.ignored)
+        result.messages.push_back(
+            formatted("notice: %llu messages do nothing: ", static_cast<unsigned long long>(kind.count)) +
+            printable(kind.what));
     if (score.program_changes > 0 && !context.rules.choose)
         result.messages.emplace_back("notice: program changes do nothing; --preset auto follows them");
 }
@@ -211,14 +243,14 @@ ScoreSettings score_settings(const RenderOptions& options) {
 Outcome<RenderedJob> render_job(const RenderJob& job, const RenderContext& context,
                                 const std::function<void(double fraction)>& progress) {
     const RenderOptions& options = context.options;
-    const auto score = load_score(job, context);
+    RenderedJob result;
+    const auto score = load_score(job, context, result);
     if (!score) return score.error();
     const ScoreSettings settings = score_settings(options);
     const std::uint64_t frames = most_frames(score.value(), settings);
     auto outputs = open_outputs(job, context, frames);
     if (!outputs) return outputs.error();
 
-    RenderedJob result;
     const auto instruments = load_instruments(score.value(), context.instruments, result.stats);
     if (!instruments) return instruments.error();
     Ensemble ensemble = make_ensemble(score.value(), instruments.value(), !options.stems.empty(),

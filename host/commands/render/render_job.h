@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/file_plan.h"
 #include "commands/render/options.h"
 #include "commands/render/render_stats.h"
 #include "commands/render/score.h"
@@ -23,6 +24,7 @@ struct RenderContext {
     const RenderOptions& options;
     const ScoreRules& rules;
     InstrumentCache& instruments;
+    FilePlan& files;  ///< of the one job that writes a folder of stems
 };
 
 struct RenderedJob {

@@ -96,7 +96,7 @@ class MixPath {
 
 std::uint64_t most_frames(const Score& score, const ScoreSettings& settings) {
     const double tail_s = settings.tail_s.value_or(automatic_tail_limit_s);
-    return score.end_frame + 1 + to_frames(tail_s, settings.output_rate_hz);
+    return score.end_frame + to_frames(tail_s, settings.output_rate_hz);
 }
 
 Outcome<ScoreStatistics> render_score(Ensemble& ensemble, const Score& score, const ScoreSettings& settings,
@@ -105,7 +105,8 @@ Outcome<ScoreStatistics> render_score(Ensemble& ensemble, const Score& score, co
     SilenceDetector silence(settings.silence_dbfs, settings.output_rate_hz);
     MixPath mix(settings, sink, statistics);
     const std::uint64_t end = most_frames(score, settings);
-    const auto progress_end = static_cast<double>(settings.tail_s ? end : score.end_frame + 1);
+    const auto progress_end =
+        static_cast<double>(std::max<std::uint64_t>(1, settings.tail_s ? end : score.end_frame));
     while (statistics.frames < end) {
         if (auto stop = interruption()) return *stop;
         const auto count =

@@ -50,14 +50,38 @@ Json parts_json(const RenderStats& stats) {
     Json parts = Json::array();
     for (const PartStats& part : stats.parts) {
         parts.push_back({{"preset", part.preset},
+                         {"port", part.port},
                          {"channel", part.channel},
                          {"contact_rate_hz", part.contact_rate_hz},
-                         {"notes", part.notes.notes},
+                         {"notes", part.played},
                          {"ignored_notes", part.notes.ignored_notes},
                          {"stolen_notes", part.notes.stolen_notes},
                          {"impulses", part.contacts.impulses}});
     }
     return parts;
+}
+
+Json ignored_json(const RenderStats& stats) {
+    Json kinds = Json::array();
+    for (const IgnoredKind& kind : stats.ignored)
+        kinds.push_back({{"what", kind.what}, {"messages", kind.count}});
+    return kinds;
+}
+
+Json repairs_json(const RenderStats& stats) {
+    Json repairs = Json::array();
+    for (const MidiRepair& repair : stats.repairs)
+        repairs.push_back({{"place", repair.place},
+                           {"what", repair.what},
+                           {"assumed", repair.assumed},
+                           {"count", repair.count}});
+    return repairs;
+}
+
+std::uint64_t played_notes(const RenderStats& stats) {
+    std::uint64_t sum = 0;
+    for (const PartStats& part : stats.parts) sum += part.played;
+    return sum;
 }
 
 std::string parts_line(const RenderStats& stats) {
@@ -78,10 +102,12 @@ void describe_job(const std::string& midi, const RenderOptions& options, const S
     stats.output_rate_hz = options.rate_hz;
     stats.score_s = static_cast<double>(score.end_frame) / options.rate_hz;
     stats.silent_notes = score.silent_notes;
+    stats.ignored = score.ignored;
     for (const EnsemblePart& part : ensemble.parts)
-        stats.parts.push_back({part.score->preset, part.score->channel + 1,
-                               part.instrument->model.contact_rate_hz, part.state.counters,
-                               contact_counters(part.state)});
+        stats.parts.push_back(
+            {part.score->preset, part.score->port + 1, part.score->channel + 1,
+             part.score->notes - std::min(part.score->notes, part.state.counters.ignored_notes),
+             part.instrument->model.contact_rate_hz, part.state.counters, contact_counters(part.state)});
 }
 
 std::optional<double> real_time_factor(const RenderStats& stats) {
@@ -114,7 +140,8 @@ std::string stats_json(const RenderStats& stats) {
                     {"clipped_samples", stats.score.clipped},
                     {"limited_frames", stats.score.limited_frames},
                     {"limiter_reduction_db", -20 * std::log10(stats.score.least_gain) + 0.0},
-                    {"notes", notes.notes},
+                    {"notes", played_notes(stats)},
+                    {"strokes", notes.notes},
                     {"silent_notes", stats.silent_notes},
                     {"ignored_notes", notes.ignored_notes},
                     {"stolen_notes", notes.stolen_notes},
@@ -129,6 +156,8 @@ std::string stats_json(const RenderStats& stats) {
                     {"nonfinite_resets", contacts.nonfinite_resets},
                     {"lcp_residual_max_m", contacts.worst_residual_m},
                     {"worst_penetration_m", contacts.worst_penetration_m},
+                    {"ignored", ignored_json(stats)},
+                    {"repairs", repairs_json(stats)},
                     {"parts", parts_json(stats)}};
     // Names of files may hold any bytes; those that are no UTF-8 become replacement characters.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -141,7 +170,7 @@ std::string stats_summary(const RenderStats& stats) {
     if (const auto peak = peak_dbfs(stats)) text += formatted(", peak %.1f dBFS", *peak);
     text += "\n" + parts_line(stats);
     text += formatted("notes     %llu played, %llu ignored, %llu taken from their string by another\n",
-                      count(notes.notes), count(notes.ignored_notes), count(notes.stolen_notes));
+                      count(played_notes(stats)), count(notes.ignored_notes), count(notes.stolen_notes));
     text += formatted("contact   %llu impulses in %llu steps, worst penetration %.3g m\n",
                       count(contacts.impulses), count(contacts.steps), contacts.worst_penetration_m);
     if (contacts.truncated_solves + contacts.nonfinite_resets > 0) {

@@ -12,7 +12,9 @@ namespace jawari::host {
 
 struct PartStats {
     std::string preset;
-    int channel = 0;  ///< from 1
+    int port = 0;              ///< from 1
+    int channel = 0;           ///< from 1
+    std::uint64_t played = 0;  ///< notes that sounded; a course of several strings is one
     double contact_rate_hz = 0;
     InstrumentCounters notes;
     Counters contacts;
@@ -24,6 +26,8 @@ struct RenderStats {
     double score_s = 0;  ///< last event or end of track
     std::vector<PartStats> parts;
     std::uint64_t silent_notes = 0;
+    std::vector<IgnoredKind> ignored;
+    std::vector<MidiRepair> repairs;
     ScoreStatistics score;
     double cpu_compile_s = 0;
     double cpu_output_s = 0;

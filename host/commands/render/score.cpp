@@ -2,7 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <map>
+#include <memory>
+
+#include "midi/ignored.h"
+#include "midi/system_message.h"
 
 namespace jawari::host {
 
@@ -13,25 +19,31 @@ constexpr std::size_t silent = static_cast<std::size_t>(-1);
 /// An event and, of a note-on, who plays it.
 struct Routed {
     TimedEvent timed;
+    int port = 0;
     std::size_t part = silent;
+};
+
+/// Sixteen channels, as one cable has them.
+struct Port {
+    MidiInterpreter interpreter;
+    std::array<std::optional<std::string>, midi_channel_count> presets;
 };
 
 class ScoreMaker {
   public:
-    ScoreMaker(const ScoreRules& rules, Score& score)
-        : rules_(rules), score_(score), interpreter_(make_interpreter(rules.interpreter)) {
-        for (std::size_t channel = 0; channel < midi_channel_count; ++channel)
-            presets_[channel] = choice(static_cast<int>(channel), 0, 0);
-    }
+    ScoreMaker(const ScoreRules& rules, const MidiFile& file, Score& score)
+        : rules_(rules), file_(file), score_(score) {}
 
-    void take(const MidiEvent& message, std::uint64_t frame) {
-        interpret(interpreter_, {message.status, message.data1, message.data2}, actions_);
-        if (actions_.program.asked) change_program();
-        for (std::size_t i = 0; i < actions_.count; ++i) {
-            Routed routed{{frame, actions_.events[i]}};
-            if (routed.timed.event.type == InstrumentEventType::NoteOn) routed.part = part_of(routed);
-            routed_.push_back(routed);
+    void take(const MidiEvent& event, std::uint64_t frame) {
+        if (event.status != exclusive_status) {
+            const ChannelMessage message{event.status, event.data1, event.data2};
+            apply(message, event.port, frame);
+            if (actions_.ignored) ignored_[ignored_kind(port_at(event.port).interpreter, message)] += 1;
+            return;
         }
+        const DecodedExclusive decoded = decode_exclusive(file_.exclusives[event.exclusive]);
+        for (const ChannelMessage& message : decoded.messages) apply(message, event.port, frame);
+        if (decoded.messages.empty()) ignored_["system exclusive: " + decoded.name] += 1;
     }
 
     /// Notes go to their part; everything else to each part that has notes of the channel.
@@ -46,59 +58,105 @@ class ScoreMaker {
                 continue;
             }
             for (ScorePart& part : score_.parts)
-                if ((part.channels >> static_cast<unsigned>(routed.timed.event.channel) & 1U) != 0)
+                if (part.port == routed.port &&
+                    (part.channels >> static_cast<unsigned>(routed.timed.event.channel) & 1U) != 0)
                     part.events.push_back(routed.timed);
         }
+        if (file_.escapes > 0) ignored_["bytes for other devices (F7)"] += file_.escapes;
+        for (const auto& [what, count] : ignored_) score_.ignored.push_back({what, count});
     }
 
   private:
-    [[nodiscard]] std::optional<std::string> choice(int channel, int bank, int program) const {
-        return rules_.choose ? rules_.choose(channel, bank, program) : rules_.preset;
+    [[nodiscard]] std::optional<std::string> choice(int bank, int program) const {
+        return rules_.choose ? rules_.choose(bank, program) : rules_.preset;
     }
 
-    void change_program() {
+    Port& port_at(int number) {
+        auto& port = ports_[number];
+        if (!port) {
+            port = std::make_unique<Port>(Port{make_interpreter(rules_.interpreter), {}});
+            port->presets.fill(choice(0, 0));
+        }
+        return *port;
+    }
+
+    void apply(const ChannelMessage& message, int number, std::uint64_t frame) {
+        Port& port = port_at(number);
+        interpret(port.interpreter, message, actions_);
+        if (actions_.program.asked) change_program(port);
+        if (actions_.programs_reset) port.presets.fill(choice(0, 0));
+        for (std::size_t i = 0; i < actions_.count; ++i) {
+            Routed routed{{frame, actions_.events[i]}, number, silent};
+            if (routed.timed.event.type == InstrumentEventType::NoteOn) routed.part = part_of(port, routed);
+            routed_.push_back(routed);
+        }
+    }
+
+    void change_program(Port& port) {
         score_.program_changes += 1;
         const ProgramRequest& request = actions_.program;
-        presets_[static_cast<std::size_t>(request.channel)] =
-            choice(request.channel, request.bank, request.program);
+        port.presets[static_cast<std::size_t>(request.channel)] = choice(request.bank, request.program);
     }
 
-    std::size_t part_of(const Routed& routed) {
+    /// Drums have no preset; with one preset for all, everything is played.
+    [[nodiscard]] bool is_silent(const Port& port, const Routed& routed, int leader) const {
+        const auto channel = static_cast<std::size_t>(routed.timed.event.channel);
+        if (!port.presets[static_cast<std::size_t>(leader)]) return true;
+        if (rules_.interpreter.guitar_channel >= 0 && routed.timed.event.string < 0) return true;
+        return rules_.choose && port.interpreter.channels[channel].unpitched;
+    }
+
+    std::size_t part_of(const Port& port, const Routed& routed) {
         const int channel = routed.timed.event.channel;
-        const int leader = rules_.choose ? part_channel(interpreter_, channel) : 0;
-        const auto& preset = presets_[static_cast<std::size_t>(leader)];
-        const bool guitar = rules_.interpreter.guitar_channel >= 0;
-        if (!preset || (guitar && routed.timed.event.string < 0)) {
+        if ((rules_.muted >> static_cast<unsigned>(channel) & 1U) != 0) {
+            score_.muted_notes += 1;
+            return silent;
+        }
+        const int leader = rules_.choose ? part_channel(port.interpreter, channel) : 0;
+        if (is_silent(port, routed, leader)) {
             score_.silent_notes += 1;
             return silent;
         }
+        const std::string& preset = *port.presets[static_cast<std::size_t>(leader)];
         auto found = std::find_if(score_.parts.begin(), score_.parts.end(), [&](const ScorePart& part) {
-            return part.channel == leader && part.preset == *preset;
+            return part.port == routed.port && part.channel == leader && part.preset == preset;
         });
-        if (found == score_.parts.end())
+        if (found == score_.parts.end()) {
+            const bool guitar = rules_.interpreter.guitar_channel >= 0;
             found = score_.parts.insert(
-                found, ScorePart{*preset, leader, 0, 0, guitar ? PlayMode::Guitar : PlayMode::Keyboard, {}});
+                found,
+                ScorePart{
+                    preset, routed.port, leader, 0, 0, guitar ? PlayMode::Guitar : PlayMode::Keyboard, {}});
+        }
         found->channels |= 1U << static_cast<unsigned>(channel);
         found->notes += 1;
         return static_cast<std::size_t>(found - score_.parts.begin());
     }
 
     const ScoreRules& rules_;
+    const MidiFile& file_;
     Score& score_;
-    MidiInterpreter interpreter_;
     MidiActions actions_;
-    std::array<std::optional<std::string>, midi_channel_count> presets_;
+    std::map<int, std::unique_ptr<Port>> ports_;
     std::vector<Routed> routed_;
+    std::map<std::string, std::uint64_t> ignored_;
 };
+
+/// At another tempo than that of the file.
+std::uint64_t played_frame(const MidiFile& file, std::uint64_t time, std::uint32_t rate_hz, double tempo) {
+    const std::uint64_t frame = frame_of(file, time, rate_hz);
+    return tempo == 1 ? frame : static_cast<std::uint64_t>(std::llround(static_cast<double>(frame) / tempo));
+}
 
 }  // namespace
 
 Score make_score(const MidiFile& file, std::uint32_t rate_hz, const ScoreRules& rules) {
     Score score;
-    ScoreMaker maker(rules, score);
-    for (const MidiEvent& message : file.events) maker.take(message, frame_of(file, message.time, rate_hz));
+    ScoreMaker maker(rules, file, score);
+    for (const MidiEvent& event : file.events)
+        maker.take(event, played_frame(file, event.time, rate_hz, rules.tempo));
     maker.finish();
-    score.end_frame = frame_of(file, file.end_time, rate_hz);
+    score.end_frame = played_frame(file, file.end_time, rate_hz, rules.tempo);
     return score;
 }
 

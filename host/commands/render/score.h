@@ -22,6 +22,7 @@ struct TimedEvent {
 /// One instrument of the piece.
 struct ScorePart {
     std::string preset;
+    int port = 0;           ///< each port has 16 channels of its own
     int channel = 0;        ///< 0 to 15: its channel, or that of its MPE zone's manager
     unsigned channels = 0;  ///< bit c: notes of channel c
     std::uint64_t notes = 0;
@@ -29,22 +30,32 @@ struct ScorePart {
     std::vector<TimedEvent> events;  ///< in order of time
 };
 
+/// Messages of one kind that do nothing here.
+struct IgnoredKind {
+    std::string what;  ///< `controller 91 (reverb)`
+    std::uint64_t count = 0;
+};
+
 struct Score {
-    std::vector<ScorePart> parts;    ///< in order of their first note
-    std::uint64_t end_frame = 0;     ///< of the last event or end of track
-    std::uint64_t silent_notes = 0;  ///< of programs without a preset, and beside guitar mode
+    std::vector<ScorePart> parts;      ///< in order of their first note
+    std::vector<IgnoredKind> ignored;  ///< by name
+    std::uint64_t end_frame = 0;       ///< of the last event or end of track
+    std::uint64_t silent_notes = 0;    ///< of drums, of programs without a preset, and beside guitar mode
+    std::uint64_t muted_notes = 0;     ///< left out as asked for
     std::uint64_t program_changes = 0;
 };
 
-/// Preset of a program on a part's channel; nothing: its notes are silent.
-using ProgramChoice = std::function<std::optional<std::string>(int channel, int bank, int program)>;
+/// Preset of a program; nothing: its notes are silent.
+using ProgramChoice = std::function<std::optional<std::string>(int bank, int program)>;
 
 struct ScoreRules {
     InterpreterSettings interpreter;
     /// Each channel (MPE zone, guitar) is a part for itself, for each preset that its programs choose. Empty:
-    /// all channels play one part, program changes do nothing.
+    /// all channels of a port play one part, program changes do nothing.
     ProgramChoice choose;
     std::string preset;                                      ///< of the one part
+    double tempo = 1;                                        ///< times as fast as written
+    unsigned muted = 0;                                      ///< bit c: notes of channel c are left out
     std::vector<std::pair<ParameterId, double>> parameters;  ///< set at the start, in each parameter's unit
 };
 

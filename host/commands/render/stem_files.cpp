@@ -26,7 +26,7 @@ std::string stem_file_name(const std::string& name) {
 }
 
 Outcome<StemFiles> StemFiles::create(const std::string& path, const std::vector<std::string>& names,
-                                     const AudioFormat& format) {
+                                     const AudioFormat& format, FilePlan& files) {
     StemFiles stems;
     const bool folder = is_folder(path);
     const std::size_t most = folder ? most_stem_files : most_stem_channels;
@@ -48,8 +48,9 @@ Outcome<StemFiles> StemFiles::create(const std::string& path, const std::vector<
             unique = name + "-" + std::to_string(i);
         AudioFormat named = format;
         named.tags.title += ", " + name;
-        auto file =
-            AudioFile::create((std::filesystem::path(path) / stem_file_name(unique)).string(), 1, named);
+        const std::string stem = (std::filesystem::path(path) / stem_file_name(unique)).string();
+        if (auto error = files.add_output("--stems", stem, FileContent::Sound)) return *error;
+        auto file = AudioFile::create(stem, 1, named);
         if (!file) return file.error();
         stems.files_.push_back(std::move(file.value()));
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/file_plan.h"
 #include "commands/render/audio_file.h"
 
 namespace jawari::host {
@@ -16,9 +17,9 @@ inline constexpr std::size_t most_stem_channels = 1024;  ///< of one file
 class StemFiles {
   public:
     /// `path` with a slash at its end, or an existing folder: `PATH/NAME.wav` for each stem; the folder must
-    /// exist. Else one file.
+    /// exist. Else one file, which is in the plan already.
     static Outcome<StemFiles> create(const std::string& path, const std::vector<std::string>& names,
-                                     const AudioFormat& format);
+                                     const AudioFormat& format, FilePlan& files);
 
     MaybeError write(const std::vector<std::vector<double>>& stems);
     MaybeError commit();

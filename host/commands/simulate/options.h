@@ -32,6 +32,7 @@ struct SimulateOptions {
     std::string out;           ///< empty: none; `-`: CSV on standard output
     std::string stats;         ///< empty: none; `-`: standard output
     std::string plot;          ///< empty: none
+    bool overwrite = false;    ///< replaces files of other kinds too
 };
 
 }  // namespace jawari::host

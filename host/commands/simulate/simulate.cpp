@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/cpu_clock.h"
+#include "base/file_plan.h"
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "base/text.h"
@@ -56,11 +57,27 @@ MaybeError check_options(const SimulateOptions& options, std::size_t probes) {
     const auto format = output_format(options.out);
     if (!options.out.empty() && probes == 0 && format != OutputFormat::Hdf5)
         return usage_error("--out", options.out, "for scenes with probes, " + options.scene + " has none");
-    if (!options.out.empty() && (options.out == options.stats || options.out == options.plot))
-        return usage_error("--out", options.out, "another name than that of --stats and --plot");
-    if (!options.stats.empty() && options.stats == options.plot)
-        return usage_error("--stats", options.stats, "another name than that of --plot");
     return std::nullopt;
+}
+
+FileContent content_of(const std::string& out) {
+    switch (output_format(out).value_or(OutputFormat::Csv)) {
+        case OutputFormat::Hdf5:
+            return FileContent::Hdf5;
+        case OutputFormat::Wav:
+            return FileContent::Sound;
+        case OutputFormat::Csv:
+            break;
+    }
+    return FileContent::Table;
+}
+
+MaybeError check_files(const SimulateOptions& options) {
+    FilePlan files(options.overwrite);
+    files.add_input("SCENE", options.scene);
+    if (auto error = files.add_output("--out", options.out, content_of(options.out))) return error;
+    if (auto error = files.add_output("--stats", options.stats, FileContent::Json)) return error;
+    return files.add_output("--plot", options.plot, FileContent::Picture);
 }
 
 void notice_ignored_restitution(const Scene& scene) {
@@ -189,6 +206,7 @@ MaybeError simulate(const SimulateOptions& options) {
     if (auto error = apply_overrides(options.overrides, scene)) return error;
     const auto probes = probe_labels(scene.description);
     if (auto error = check_options(options, probes.size())) return error;
+    if (auto error = check_files(options)) return error;
     Targets targets;
     if (auto error = open_targets(options, targets)) return error;
 

@@ -84,6 +84,8 @@ void add_files(CLI::App& app, SimulateOptions& options) {
     app.add_flag(
         "--meter-steps", options.meter_steps,
         "Meter losses and work at each contact step, for FILE.h5; computes every step, which is slow");
+    app.add_flag("--overwrite", options.overwrite,
+                 "Outputs may replace files of other kinds; never what is read");
     app.add_option("--stats", options.stats, "Statistics as JSON; - for standard output")
         ->type_name("FILE.json")
         ->check(CLI::Validator(

@@ -41,6 +41,13 @@ class ByteReader {
         return true;
     }
 
+    /// The next `count` bytes, and skips them.
+    std::optional<std::span<const std::uint8_t>> take(std::size_t count) {
+        if (left() < count) return std::nullopt;
+        at_ += count;
+        return bytes_.subspan(at_ - count, count);
+    }
+
     bool skip(std::size_t count) {
         if (left() < count) return false;
         at_ += count;

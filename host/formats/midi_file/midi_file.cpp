@@ -6,24 +6,22 @@
 #include <utility>
 
 #include "formats/midi_file/byte_reader.h"
+#include "formats/midi_file/midi_times.h"
 #include "formats/midi_file/midi_track.h"
 
 namespace jawari::host {
 namespace {
 
-constexpr std::uint32_t default_tempo_us = 500000;
-constexpr std::uint64_t us_per_s = 1000000;
+constexpr std::size_t header_bytes = 6;
+constexpr std::size_t most_tracks = 65535;
+
+/// Kinds of repairs outside tracks.
+enum Repair { WrappedWrongly, ShortHeader, WrongFormat, WrongCount, OddRate, LongChunk, NoChunk, Patterns };
 
 struct Header {
     std::uint16_t format = 0;
     std::uint16_t tracks = 0;
     std::uint16_t division = 0;
-};
-
-/// How ticks become exact times.
-struct TimeBase {
-    std::uint64_t units_per_s = 0;
-    std::uint64_t units_per_tick = 0;  ///< SMPTE; 0: the tempo in microseconds per quarter note
 };
 
 /// The span of the MIDI file inside an optional RIFF wrapper ("RIFF" size "RMID", chunks, one of them
@@ -49,176 +47,229 @@ Result<ByteReader> unwrap(std::span<const std::uint8_t> bytes) {
     return midi_failure(reader.offset(), -1, "an RMID file without a data chunk", "one data chunk");
 }
 
-Result<Header> parse_header(ByteReader& reader) {
+/// A wrapper that is broken, or of another kind (MacBinary, a mail, a cartridge): the file begins at MThd.
+Result<ByteReader> find_header(std::span<const std::uint8_t> bytes, const Failure& problem,
+                               MidiNotes& notes) {
+    static constexpr std::string_view tag = "MThd";
+    const auto found = std::search(bytes.begin(), bytes.end(), tag.begin(), tag.end());
+    if (found == bytes.end()) return problem;
+    const auto begin = static_cast<std::size_t>(found - bytes.begin());
+    notes.repair(0, -1, WrappedWrongly, problem.value, problem.allowed,
+                 std::to_string(begin) + " bytes before MThd are left out");
+    return ByteReader(bytes, begin, bytes.size());
+}
+
+Result<ByteReader> find_file(std::span<const std::uint8_t> bytes, MidiNotes& notes) {
+    auto inside = unwrap(bytes);
+    if (!inside) return notes.strict() ? inside : find_header(bytes, inside.failure(), notes);
+    ByteReader reader = inside.value();
+    if (notes.strict() || ByteReader(reader).take_tag("MThd")) return inside;
+    return find_header(bytes, midi_failure(0, -1, "not a standard MIDI file", "a file that begins with MThd"),
+                       notes);
+}
+
+/// Tracks and types that do not fit together.
+bool check_counts(std::size_t start, Header& header, MidiNotes& notes) {
+    const std::string type = "MIDI file type " + std::to_string(header.format);
+    const std::string allowed = "0 or 1; the independent patterns of type 2 have no common time";
+    if (header.format == 2 &&
+        !notes.repair(start + 8, -1, Patterns, type, allowed, "its tracks are played one after the other"))
+        return false;
+    if (header.format > 2 && !notes.repair(start + 8, -1, WrongFormat, type, allowed, "type 1")) return false;
+    const bool one_track = header.format == 0;
+    if (header.tracks != 0 && (!one_track || header.tracks == 1)) return true;
+    return notes.repair(start + 10, -1, WrongCount, std::to_string(header.tracks) + " tracks",
+                        one_track ? "1 track in a type 0 file" : "1 to 65535",
+                        "all tracks that are there are played");
+}
+
+Result<Header> parse_header(ByteReader& reader, MidiNotes& notes) {
     const std::size_t start = reader.offset();
     if (!reader.take_tag("MThd")) {
         return midi_failure(start, -1, "not a standard MIDI file", "a file that begins with MThd");
     }
     const auto length = reader.big_endian(4);
-    if (!length || *length < 6 || *length > reader.left()) {
-        return midi_failure(start + 4, -1,
-                            "header of " + (length ? std::to_string(*length) : "no") + " bytes",
-                            "6 bytes or more, inside the file");
+    const bool fits = length && *length >= header_bytes && *length <= reader.left();
+    if (!fits) {
+        const std::string value = "header of " + (length ? std::to_string(*length) : "no") + " bytes";
+        const std::string allowed = "6 bytes or more, inside the file";
+        if (!length || reader.left() < header_bytes) return midi_failure(start + 4, -1, value, allowed);
+        if (!notes.repair(start + 4, -1, ShortHeader, value, allowed, "6 bytes")) return *notes.failure();
     }
-    const std::size_t end = reader.offset() + *length;
+    const std::size_t end = reader.offset() + (fits ? *length : header_bytes);
     Header header;
     header.format = static_cast<std::uint16_t>(*reader.big_endian(2));
     header.tracks = static_cast<std::uint16_t>(*reader.big_endian(2));
     header.division = static_cast<std::uint16_t>(*reader.big_endian(2));
     reader.skip(end - reader.offset());
-    if (header.format > 1) {
-        return midi_failure(start + 8, -1, "MIDI file type " + std::to_string(header.format),
-                            "0 or 1; the independent patterns of type 2 have no common time");
-    }
-    if (header.tracks == 0 || (header.format == 0 && header.tracks != 1)) {
-        return midi_failure(start + 10, -1, std::to_string(header.tracks) + " tracks",
-                            header.format == 0 ? "1 track in a type 0 file" : "1 to 65535");
-    }
+    if (!check_counts(start, header, notes)) return *notes.failure();
     return header;
 }
 
-std::optional<TimeBase> time_base(std::uint16_t division) {
-    if ((division & 0x8000) == 0) {
-        if (division == 0) return std::nullopt;
-        return TimeBase{division * us_per_s, 0};
-    }
-    const unsigned frames_per_s = 256U - (division >> 8);
-    const unsigned ticks_per_frame = division & 0xFF;
-    if (ticks_per_frame == 0) return std::nullopt;
-    switch (frames_per_s) {
-        case 24:
-        case 25:
-        case 30:
-            return TimeBase{std::uint64_t{frames_per_s} * ticks_per_frame, 1};
-        case 29:  // "30 drop frame" counts frames of 1001/30000 s
-            return TimeBase{std::uint64_t{30000} * ticks_per_frame, 1001};
-        default:
-            return std::nullopt;
-    }
+Result<TimeBase> base_of(std::size_t start, std::uint16_t division, MidiNotes& notes) {
+    const auto base = time_base(division, true);
+    if (base && time_base(division, false)) return *base;
+    const std::string value = "division " + std::to_string(division);
+    const std::string allowed =
+        "1 to 32767 ticks per quarter note, or SMPTE with 24, 25, 29 or 30 frames per second and 1 "
+        "to 255 ticks per frame";
+    if (!base) return midi_failure(start + 12, -1, value, allowed);
+    const std::string assumed = std::to_string(256U - (division >> 8U)) + " frames per second";
+    if (!notes.repair(start + 12, -1, OddRate, value, allowed, assumed)) return *notes.failure();
+    return *base;
 }
 
-/// The next track chunk, skipping chunks of other kinds.
-Result<ByteReader> next_track_chunk(std::span<const std::uint8_t> bytes, ByteReader& reader,
-                                    const Header& header, std::uint16_t index) {
-    for (;;) {
-        const std::size_t start = reader.offset();
-        if (reader.left() < 8) {
-            return midi_failure(start, -1, "the file ends before track " + std::to_string(index + 1),
-                                "the " + std::to_string(header.tracks) + " tracks that the header announces");
-        }
-        const bool track = reader.take_tag("MTrk");
-        if (!track) reader.skip(4);
-        const std::size_t length = *reader.big_endian(4);
-        if (length > reader.left()) {
-            return midi_failure(start + 4, track ? index : -1,
-                                "chunk of " + std::to_string(length) + " bytes",
-                                "at most the " + std::to_string(reader.left()) + " bytes left in the file");
-        }
-        const std::size_t begin = reader.offset();
-        reader.skip(length);
-        if (track) return ByteReader(bytes, begin, begin + length);
+/// Whether the next bytes are a chunk's name: four characters that can be printed.
+bool at_chunk(const ByteReader& reader) {
+    ByteReader tag = reader;
+    if (tag.left() < 8) return false;
+    for (int i = 0; i < 4; ++i) {
+        const auto c = *tag.big_endian(1);
+        if (c < 0x20 || c > 0x7E) return false;
     }
+    return true;
 }
 
-/// Walks ticks forwards through the tempo map in exact integer time.
-class Clock {
+/// Reads chunk by chunk. Unknown ones are skipped, as the standard asks.
+class ChunkReader {
   public:
-    Clock(TimeBase base, const std::vector<MidiTempo>& tempos) : base_(base), tempos_(tempos) {}
+    ChunkReader(std::span<const std::uint8_t> bytes, ByteReader reader, const Header& header,
+                MidiNotes& notes)
+        : bytes_(bytes), reader_(reader), header_(header), notes_(notes) {}
 
-    /// Ticks must not decrease from call to call. Nothing if the time is past the longest music accepted.
-    std::optional<std::uint64_t> time_at(std::uint64_t tick) {
-        while (next_ < tempos_.size() && tempos_[next_].tick <= tick) {
-            if (!advance(tempos_[next_].tick)) return std::nullopt;
-            tempo_ = tempos_[next_].us_per_quarter;
-            ++next_;
+    /// The next track; nothing at the end. A failure is in the notes.
+    std::optional<ByteReader> next_track(std::size_t index) {
+        if (index == most_tracks) return std::nullopt;
+        while (!notes_.failure()) {
+            if (index >= header_.tracks && notes_.strict()) return refuse_surplus(index);
+            const std::size_t start = reader_.offset();
+            if (!find_chunk(index)) return std::nullopt;
+            const bool track = reader_.take_tag("MTrk");
+            if (!track) reader_.skip(4);
+            const auto chunk = take_chunk(start, track ? static_cast<int>(index) : -1);
+            if (chunk && track) return chunk;
         }
-        if (!advance(tick)) return std::nullopt;
-        return time_;
+        return std::nullopt;
     }
 
   private:
-    bool advance(std::uint64_t tick) {
-        const std::uint64_t units = base_.units_per_tick != 0 ? base_.units_per_tick : tempo_;
-        const std::uint64_t longest = max_midi_duration_s * base_.units_per_s;
-        if (tick - tick_ > (longest - time_) / units) return false;
-        time_ += (tick - tick_) * units;
-        tick_ = tick;
-        return true;
+    /// The header announces fewer tracks than there are.
+    std::optional<ByteReader> refuse_surplus(std::size_t index) {
+        ByteReader rest = reader_;
+        while (rest.left() >= 8) {
+            const std::size_t start = rest.offset();
+            const bool track = rest.take_tag("MTrk");
+            if (track) {
+                notes_.repair(start, static_cast<int>(index), WrongCount, "a track more than announced",
+                              "the " + std::to_string(header_.tracks) + " tracks that the header announces",
+                              "");
+                break;
+            }
+            rest.skip(4);
+            const std::size_t length = *rest.big_endian(4);
+            if (!rest.skip(length)) break;
+        }
+        return std::nullopt;
     }
 
-    TimeBase base_;
-    const std::vector<MidiTempo>& tempos_;
-    std::size_t next_ = 0;
-    std::uint64_t tick_ = 0;
-    std::uint64_t time_ = 0;
-    std::uint32_t tempo_ = default_tempo_us;
+    /// False at the end of the file; then missing tracks and bytes that are no chunk are noted.
+    bool find_chunk(std::size_t index) {
+        const std::size_t start = reader_.offset();
+        if (reader_.left() >= 8 && (notes_.strict() || at_chunk(reader_))) return true;
+        if (reader_.left() >= 8) return skip_to_track();
+        if (index < header_.tracks) {
+            notes_.repair(start, -1, WrongCount, "the file ends before track " + std::to_string(index + 1),
+                          "the " + std::to_string(header_.tracks) + " tracks that the header announces",
+                          "the tracks that are there are all");
+        }
+        return false;
+    }
+
+    bool skip_to_track() {
+        static constexpr std::string_view tag = "MTrk";
+        const std::size_t start = reader_.offset();
+        const auto rest = bytes_.subspan(start, reader_.left());
+        const auto found = std::search(rest.begin(), rest.end(), tag.begin(), tag.end());
+        const auto count = static_cast<std::size_t>(found - rest.begin());
+        reader_.skip(count);
+        const bool padding = std::all_of(rest.begin(), found, [](std::uint8_t byte) { return byte == 0; });
+        if (!padding)
+            notes_.repair(start, -1, NoChunk, std::to_string(count) + " bytes that are no chunk",
+                          "chunks of a name, a length and that many bytes", "they are left out");
+        return reader_.left() >= 8;
+    }
+
+    std::optional<ByteReader> take_chunk(std::size_t start, int track) {
+        std::size_t length = *reader_.big_endian(4);
+        if (length > reader_.left()) {
+            const std::string left = std::to_string(reader_.left());
+            if (!notes_.repair(start + 4, track, LongChunk, "chunk of " + std::to_string(length) + " bytes",
+                               "at most the " + left + " bytes left in the file",
+                               "it has the " + left + " bytes that are left"))
+                return std::nullopt;
+            length = reader_.left();
+        }
+        const std::size_t begin = reader_.offset();
+        reader_.skip(length);
+        return ByteReader(bytes_, begin, begin + length);
+    }
+
+    std::span<const std::uint8_t> bytes_;
+    ByteReader reader_;
+    const Header& header_;
+    MidiNotes& notes_;
 };
 
-/// Puts events and tempos in order of time (stable: tracks are appended in order) and fills the times in.
-std::optional<Failure> assign_times(MidiFile& file, TimeBase base, std::uint64_t end_tick) {
-    const auto earlier = [](const auto& a, const auto& b) { return a.tick < b.tick; };
-    std::stable_sort(file.events.begin(), file.events.end(), earlier);
-    std::stable_sort(file.tempos.begin(), file.tempos.end(), earlier);
-    file.time_units_per_s = base.units_per_s;
-    Clock clock(base, file.tempos);
-    for (MidiEvent& event : file.events) {
-        const auto time = clock.time_at(event.tick);
-        if (!time) {
-            return Failure{"track " + std::to_string(event.track + 1),
-                           "an event at tick " + std::to_string(event.tick),
-                           "events within the first 24 hours"};
-        }
-        event.time = *time;
+/// Appends the tracks; returns the tick at which the last one ends.
+Result<std::uint64_t> read_tracks(ChunkReader& chunks, MidiNotes& notes, MidiFile& file) {
+    std::uint64_t end_tick = 0;
+    std::size_t count = 0;
+    for (auto chunk = chunks.next_track(0); chunk; chunk = chunks.next_track(count)) {
+        auto track = parse_track(*chunk, static_cast<std::uint16_t>(count++), notes, file);
+        if (!track) return track.failure();
+        MidiTrack& t = track.value();
+        const std::uint64_t begin = file.format == 2 ? end_tick : 0;  // patterns: one after the other
+        for (MidiEvent& event : t.events) event.tick += begin;
+        for (MidiTempo& tempo : t.tempos) tempo.tick += begin;
+        file.events.insert(file.events.end(), t.events.begin(), t.events.end());
+        file.tempos.insert(file.tempos.end(), t.tempos.begin(), t.tempos.end());
+        end_tick = std::max(end_tick, begin + t.end_tick);
     }
-    const auto end = clock.time_at(end_tick);
-    if (!end) return Failure{"end of track", "tick " + std::to_string(end_tick), "within the first 24 hours"};
-    file.end_time = *end;
-    return std::nullopt;
+    if (notes.failure()) return *notes.failure();
+    file.track_count = static_cast<std::uint16_t>(count);
+    return end_tick;
 }
 
 }  // namespace
 
-Result<MidiFile> parse_midi(std::span<const std::uint8_t> bytes) {
+Result<MidiFile> parse_midi(std::span<const std::uint8_t> bytes, MidiReading reading) {
     if (bytes.size() > max_midi_file_bytes) {
         return midi_failure(0, -1, "a file of " + std::to_string(bytes.size()) + " bytes",
                             "at most " + std::to_string(max_midi_file_bytes));
     }
-    auto contents = unwrap(bytes);
+    MidiNotes notes(reading);
+    auto contents = find_file(bytes, notes);
     if (!contents) return contents.failure();
     ByteReader reader = contents.value();
     const std::size_t start = reader.offset();
-    const auto header = parse_header(reader);
+    const auto header = parse_header(reader, notes);
     if (!header) return header.failure();
-    const auto base = time_base(header.value().division);
-    if (!base) {
-        return midi_failure(
-            start + 12, -1, "division " + std::to_string(header.value().division),
-            "1 to 32767 ticks per quarter note, or SMPTE with 24, 25, 29 or 30 frames per second and 1 "
-            "to 255 ticks per frame");
-    }
+    const auto base = base_of(start, header.value().division, notes);
+    if (!base) return base.failure();
     MidiFile file;
     file.format = header.value().format;
-    file.track_count = header.value().tracks;
     file.division = header.value().division;
-    std::uint64_t end_tick = 0;
-    for (std::uint16_t index = 0; index < file.track_count; ++index) {
-        const auto chunk = next_track_chunk(bytes, reader, header.value(), index);
-        if (!chunk) return chunk.failure();
-        auto track = parse_track(chunk.value(), index);
-        if (!track) return track.failure();
-        const MidiTrack& t = track.value();
-        file.events.insert(file.events.end(), t.events.begin(), t.events.end());
-        file.tempos.insert(file.tempos.end(), t.tempos.begin(), t.tempos.end());
-        end_tick = std::max(end_tick, t.end_tick);
-    }
-    if (auto failure = assign_times(file, *base, end_tick)) return *std::move(failure);
+    ChunkReader chunks(bytes, reader, header.value(), notes);
+    const auto end_tick = read_tracks(chunks, notes, file);
+    if (!end_tick) return end_tick.failure();
+    if (file.track_count == 0)
+        return midi_failure(reader.offset(), -1, "no track", "a track chunk (MTrk) after the header");
+    if (file.track_count > header.value().tracks && header.value().tracks > 0 && file.format != 0)
+        notes.repair(start + 10, -1, WrongCount, std::to_string(header.value().tracks) + " tracks announced",
+                     "as many as there are", "all " + std::to_string(file.track_count) + " are played");
+    if (auto failure = assign_times(file, base.value(), end_tick.value(), notes)) return *std::move(failure);
+    file.repairs = std::move(notes.repairs());
     return file;
-}
-
-std::uint64_t frame_of(const MidiFile& file, std::uint64_t time, std::uint32_t rate_hz) {
-    const std::uint64_t seconds = time / file.time_units_per_s;
-    const std::uint64_t rest = time % file.time_units_per_s;
-    return seconds * rate_hz + (rest * rate_hz + file.time_units_per_s / 2) / file.time_units_per_s;
 }
 
 }  // namespace jawari::host

@@ -1,5 +1,6 @@
 #include "formats/tuning/scale.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -11,12 +12,30 @@ namespace jawari::host {
 namespace {
 
 const char* const pitch_allowed =
-    "a ratio of whole numbers above 0 such as 3/2, or cents with a period such as 701.955, up to 120000";
+    "a ratio of whole numbers above 0, of up to 1000 digits each, such as 3/2, or cents with a period such "
+    "as "
+    "701.955, up to 120000";
+
+/// log2 of a whole number above 0 of any length. Digits beyond the 18 first change it by less than 1e-17.
+std::optional<double> log2_of_digits(std::string_view digits) {
+    constexpr std::size_t most_digits = 1000, counted = 18;
+    while (digits.starts_with('0')) digits.remove_prefix(1);
+    if (digits.empty() || digits.size() > most_digits) return std::nullopt;
+    if (digits.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
+    const auto first = whole_number(digits.substr(0, counted));
+    const auto rest = static_cast<double>(digits.size() - std::min(digits.size(), counted));
+    return std::log2(static_cast<double>(*first)) + rest * std::log2(10.0);
+}
 
 std::optional<double> ratio_cents(std::string_view numerator, std::string_view denominator) {
     const auto above = whole_number(numerator);
     const auto below = whole_number(denominator);
-    if (!above || !below || *above <= 0 || *below <= 0) return std::nullopt;
+    if (!above || !below) {
+        const auto log_above = log2_of_digits(numerator), log_below = log2_of_digits(denominator);
+        if (!log_above || !log_below) return std::nullopt;
+        return cents_per_octave * (*log_above - *log_below);
+    }
+    if (*above <= 0 || *below <= 0) return std::nullopt;
     // log2 of the quotient: exact for octaves, and n/d loses no more than an ulp.
     return cents_per_octave * std::log2(static_cast<double>(*above) / static_cast<double>(*below));
 }

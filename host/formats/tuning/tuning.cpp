@@ -42,8 +42,10 @@ Outcome<T> load(const std::string& path, Result<T> (*parse)(std::string_view)) {
 Result<KeyFrequencies> tune(const Scale& scale, const KeyboardMap& map) {
     const auto reference = key_cents(scale, map, map.reference_key);
     if (!reference)
-        return Failure{"reference key", std::to_string(map.reference_key) + ", which the map leaves silent",
-                       "a key that the map gives a degree"};
+        return Failure{
+            "reference key", std::to_string(map.reference_key) + ", which the map leaves silent",
+            "a key that the map gives a degree; name one, with its own frequency, in the map's fifth "
+            "and sixth line"};
     KeyFrequencies frequencies{};
     for (int key = 0; key < static_cast<int>(midi_keys); ++key) {
         double& frequency = frequencies[static_cast<std::size_t>(key)];

@@ -81,6 +81,17 @@ TEST(OutputFile, SymbolicLinksStayLinks) {
     EXPECT_EQ(read_text(folder.file("target")), "new");
 }
 
+TEST(OutputFile, ALinkToAFileThatIsNotThereYetStaysALink) {
+    const TemporaryFolder folder;
+    std::filesystem::create_symlink("later", folder.file("link"));
+    std::filesystem::create_symlink("link", folder.file("second"));
+    OutputFile file = must_create(folder.file("second"));
+    ASSERT_FALSE(file.write("new"));
+    ASSERT_FALSE(file.commit());
+    EXPECT_TRUE(std::filesystem::is_symlink(folder.file("link")));
+    EXPECT_EQ(read_text(folder.file("later")), "new");
+}
+
 mode_t mode_of(const std::string& path) {
     struct stat status {};
     stat(path.c_str(), &status);

@@ -28,8 +28,8 @@ std::string short_song() {
 }
 
 std::vector<std::string> render_command(const TemporaryFolder& folder) {
-    return {"render", folder.file("in.mid"), "--preset", "bass-fretted", "--tail", "0.2",
-            "-o",     folder.file("out.wav")};
+    return {"render", folder.file("in.mid"),  "--preset",   "bass-fretted", "--tail", "0.2",
+            "-o",     folder.file("out.wav"), "--overwrite"};
 }
 
 /// Names that the program may leave behind when it is killed (docs/commands/exit-codes.md).

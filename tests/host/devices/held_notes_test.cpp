@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <random>
 #include <set>
@@ -35,6 +36,24 @@ TEST(HeldNotes, LetsGoOfWhatIsHeldAndOfNothingElse) {
         follow(held, message);
     EXPECT_EQ(bytes_of(release_all(held)),
               (std::set<Bytes>{{0x80, 40, 64}, {0x85, 40, 64}, {0xB0, 64, 0}, {0xE2, 0, 64}}));
+    EXPECT_TRUE(release_all(held).empty());
+}
+
+TEST(HeldNotes, EveryOpenNoteGetsItsNoteOff) {
+    HeldNotes held;
+    for (const ChannelMessage& message : {ChannelMessage{0x90, 40, 100},
+                                          {0x90, 40, 90},
+                                          {0x90, 40, 90},
+                                          {0x80, 40, 0},
+                                          {0xB0, 66, 127},
+                                          {0xB0, 69, 64}})
+        follow(held, message);
+    const auto released = release_all(held);
+    EXPECT_EQ(std::count_if(released.begin(), released.end(), [](const auto& m) { return m.status == 0x80; }),
+              2);
+    EXPECT_EQ(bytes_of(released), (std::set<Bytes>{{0x80, 40, 64}, {0xB0, 66, 0}, {0xB0, 69, 0}}));
+    follow(held, {0x90, 40, 100});
+    follow(held, {0xB0, 123, 0});
     EXPECT_TRUE(release_all(held).empty());
 }
 

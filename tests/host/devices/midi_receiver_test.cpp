@@ -38,6 +38,22 @@ TEST(ChannelMessageFromDriver, LeavesOutTheRest) {
         EXPECT_FALSE(from(bytes));
 }
 
+TEST(SystemMessagesFromDriver, ResetsAndExclusives) {
+    const auto kinds = [](const std::vector<unsigned char>& bytes) {
+        std::vector<SystemKind> all;
+        for (const ChannelMessage& message : system_messages(bytes))
+            all.push_back(static_cast<SystemKind>(message.status));
+        return all;
+    };
+    using Kinds = std::vector<SystemKind>;
+    EXPECT_EQ(kinds({0xFF}), Kinds{SystemKind::Reset});
+    EXPECT_EQ(kinds({0xF0, 0x7E, 0x7F, 0x09, 0x01, 0xF7}), Kinds{SystemKind::Reset});
+    EXPECT_EQ(kinds({0xF0, 0x7F, 0x7F, 0x04, 0x01, 0, 64, 0xF7}), Kinds{SystemKind::MasterVolume});
+    for (const auto& bytes : std::vector<std::vector<unsigned char>>{
+             {}, {0xF0}, {0xFE}, {0xF8}, {0xF0, 0xF7}, {0xF0, 0x7E, 0x7F, 0x09, 0x01}, {0x90, 60, 1}})
+        EXPECT_TRUE(kinds(bytes).empty());
+}
+
 TEST(LastingName, LeavesOutNumbersThatChangeWhenADeviceIsPluggedInAgain) {
     EXPECT_EQ(lasting_name("Keystation 49:Keystation 49 MIDI 1 20:0"), "Keystation 49:Keystation 49 MIDI 1");
     EXPECT_EQ(lasting_name("Keystation 49:Keystation 49 MIDI 1 128:12"),

@@ -26,6 +26,16 @@ TEST(ProgramPresets, ABankOfAllPresets) {
     EXPECT_FALSE(program_preset(numbered_bank, static_cast<int>(all.size())));
 }
 
+TEST(ProgramPresets, EveryPitchedProgramHasOnePresetAndEffectsHaveNone) {
+    const auto all = numbered_presets();
+    for (int program = 0; program < 128; ++program) {
+        const bool unpitched = program == 113 || program >= 115;
+        const auto own = program_preset(0, program), nearest = nearest_preset(program);
+        EXPECT_EQ(own.has_value() + nearest.has_value(), unpitched ? 0 : 1) << program;
+        if (nearest) EXPECT_TRUE(std::find(all.begin(), all.end(), *nearest) != all.end()) << program;
+    }
+}
+
 TEST(ProgramPresets, EveryProgramNamesANumberedPreset) {
     const auto all = numbered_presets();
     for (int program = 0; program < 128; ++program) {

@@ -33,8 +33,11 @@ LiveSound rendered_offline(const std::vector<CapturedMessage>& messages, const S
     MidiFile file;
     file.time_units_per_s = static_cast<std::uint64_t>(settings.rate_hz);
     for (const CapturedMessage& captured : messages)
-        file.events.push_back({captured.frame, captured.frame, 0, captured.message.status,
-                               captured.message.data1, captured.message.data2});
+        file.events.push_back({.tick = captured.frame,
+                               .time = captured.frame,
+                               .status = captured.message.status,
+                               .data1 = captured.message.data1,
+                               .data2 = captured.message.data2});
     file.end_time = frames;
     ScoreRules rules;
     rules.interpreter = settings.interpreter;

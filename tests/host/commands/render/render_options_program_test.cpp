@@ -151,10 +151,15 @@ TEST(RenderOptions, ProgramsChoosePresets) {
     EXPECT_EQ(chosen.stats["parts"][0]["preset"], "bass-fretted");
     EXPECT_EQ(chosen.ran.err, "");
     EXPECT_TRUE(chosen.wav.data == render(folder, notes({28, 33}), bass).wav.data);
-    const auto flute = render(folder, notes({28, 33}, {{0xC0, 73}}), {});
+    const auto flute = render(folder, notes({28, 33}, {{0xC0, 73}}), {"--only-strings"});
     EXPECT_EQ(flute.stats["silent_notes"], 2);
     EXPECT_EQ(largest(flute.wav.samples()), 0);
     EXPECT_NE(flute.ran.err.find("notice: 2 notes are silent"), std::string::npos);
+    const auto nearest = render(folder, notes({62, 65}, {{0xC0, 73}}), {});
+    EXPECT_EQ(nearest.stats["parts"][0]["preset"], "dulcimer");
+    EXPECT_EQ(nearest.stats["silent_notes"], 0);
+    const auto effects = render(folder, notes({62, 65}, {{0xC0, 124}}), {});
+    EXPECT_EQ(effects.stats["silent_notes"], 2);
     const auto drums = render(folder, notes({36}, {{0xC9, 33}}, 9), {});
     EXPECT_EQ(drums.stats["silent_notes"], 1);
     const auto ignored = render(folder, notes({28}, {{0xC0, 73}}), bass);
@@ -203,7 +208,12 @@ TEST(RenderOptions, EveryFailureIsOneLineAndLeavesNothing) {
         {{"--jobs", "0"}, 2, "--jobs: 0"},
         {{"--quality", "best"}, 2, "best (allowed: live, reference, studio)"},
         {{"--silence", "0"}, 2, "--silence: 0"},
-        {{"--stems", folder.file("none/")}, 4, "none/1-bass-fretted-E.wav"},
+        {{"--stems", folder.file("none/none/")}, 4, "none/none/: No such file"},
+        {{"--stems", folder.file("x.mp3")}, 2, "x.mp3 (allowed: a name that ends in one of .wav, .w64"},
+        {{"--stems", folder.file("x.flac"), "--format", "float"}, 2, "(allowed: pcm16 or pcm24 in FLAC)"},
+        {{"--transpose", "49"}, 2, "--transpose: 49"},
+        {{"--mute", "17"}, 2, "--mute: 17 (allowed: a whole number, 1 to 16"},
+        {{"--tempo", "0"}, 2, "--tempo: 0 (allowed: 10 to 1000"},
         {{"--plot", folder.file("p.pdf")}, 2, "p.pdf (allowed: a name that ends in .svg or .png)"},
         {{good}, 2, "--out"}};
     for (const Refusal& refusal : refusals) {
@@ -237,6 +247,63 @@ TEST(RenderOptions, FilesThatWouldOverwriteOneAnotherAreRefused) {
     EXPECT_EQ(piped.exit_code, 2);
     EXPECT_EQ(piped.err, "MIDI: - (allowed: standard input only as the one file)\n");
     EXPECT_TRUE(std::filesystem::is_empty(folder.file("out")));
+}
+
+TEST(RenderOptions, FormatsAreThoseOfTheNames) {
+    // First bytes as each format has them, and the samples as libsndfile's own tool decodes them.
+    using namespace std::string_literals;
+    const TemporaryFolder folder;
+    const std::string midi = folder.write("in.mid", notes({28, 33}));
+    const std::vector<std::pair<std::string, std::string>> formats{
+        {"a.flac", "fLaC"}, {"a.FLAC", "fLaC"}, {"a.ogg", "OggS"}, {"a.aiff", "FORM"}, {"a.aif", "FORM"},
+        {"a.caf", "caff"},  {"a.w64", "riff"},  {"a.wav", "RIFF"}, {"plain", "RIFF"}};
+    for (const auto& [name, header] : formats) {
+        const Ran ran =
+            jawari({"render", midi, "--preset", "bass-fretted", "--tail", "0", "-o", folder.file(name)});
+        EXPECT_EQ(ran.exit_code, 0) << ran.err;
+        EXPECT_EQ(read_text(folder.file(name)).substr(0, 4), header) << name;
+    }
+    const Ran raw = jawari({"render", midi, "--preset", "bass-fretted", "--tail", "0", "--format", "pcm16",
+                            "-o", folder.file("a.raw")});
+    EXPECT_EQ(raw.exit_code, 0) << raw.err;
+    const Ran wav = jawari({"render", midi, "--preset", "bass-fretted", "--tail", "0", "--format", "pcm16",
+                            "-o", folder.file("b.wav")});
+    EXPECT_EQ(wav.exit_code, 0) << wav.err;
+    EXPECT_TRUE(read_text(folder.file("a.raw")) == read_wav(folder.file("b.wav")).data);
+    for (const char* name : {"a.mp3", "a.mid", "a.wave"}) {
+        const Ran ran = jawari({"render", midi, "-o", folder.file(name)});
+        EXPECT_EQ(ran.exit_code, 2) << name;
+        EXPECT_NE(ran.err.find("(allowed: a name that ends in one of .wav, "), std::string::npos) << ran.err;
+    }
+}
+
+TEST(RenderOptions, TheLastFolderIsMade) {
+    const TemporaryFolder folder;
+    const std::string midi = folder.write("in.mid", notes({28}));
+    const Ran ran = jawari({"render", midi, "--preset", "bass-fretted", "--tail", "0", "-o",
+                            folder.file("out/"), "--stems", folder.file("stems/")});
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_TRUE(std::filesystem::exists(folder.file("out/in.wav")));
+    EXPECT_TRUE(std::filesystem::exists(folder.file("stems/1-bass-fretted-E.wav")));
+}
+
+TEST(RenderOptions, TranspositionMovesEveryKey) {
+    const TemporaryFolder folder;
+    const auto moved = render(folder, notes({28, 33}), with_bass({"--transpose", "5"}));
+    EXPECT_TRUE(moved.wav.data == render(folder, notes({33, 38}), bass).wav.data);
+}
+
+TEST(RenderOptions, MuteSoloTempoAndQuiet) {
+    const TemporaryFolder folder;
+    const std::string midi = notes({28, 33, 38});
+    EXPECT_EQ(render(folder, midi, with_bass({"--mute", "2,1"})).stats["notes"], 0);
+    EXPECT_EQ(render(folder, midi, with_bass({"--solo", "2", "--solo", "3"})).stats["notes"], 0);
+    EXPECT_EQ(render(folder, midi, with_bass({"--solo", "1", "--mute", "2"})).stats["notes"], 3);
+    EXPECT_EQ(render(folder, midi, with_bass({"--tempo", "50"})).stats["frames"], 2 * 3 * 7200);
+    const Ran quiet = jawari({"render", folder.write("f.mid", notes({28}, {{0xB0, 91, 1}})), "-q", "--preset",
+                              "bass-fretted", "-o", folder.file("q.wav")});
+    EXPECT_EQ(quiet.exit_code, 0);
+    EXPECT_EQ(quiet.out + quiet.err, "");
 }
 
 TEST(RenderOptions, GuitarModeNeedsThePresetWhoseStringsItIsFor) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
+#include "commands/render/note_offs.h"
 #include "support/midi_bytes.h"
 
 namespace jawari::host {
@@ -20,8 +23,8 @@ MidiFile file_of(const std::vector<std::pair<std::uint32_t, Bytes>>& events) {
 
 ScoreRules by_program() {
     ScoreRules rules;
-    rules.choose = [](int channel, int bank, int program) -> std::optional<std::string> {
-        if (channel == 9 || program == 99) return std::nullopt;
+    rules.choose = [](int bank, int program) -> std::optional<std::string> {
+        if (program == 99) return std::nullopt;
         return "preset " + std::to_string(bank) + "/" + std::to_string(program);
     };
     return rules;
@@ -99,6 +102,99 @@ TEST(Score, ChannelsWithoutAPresetAreSilentAndCounted) {
                    48000, by_program());
     EXPECT_TRUE(score.parts.empty());
     EXPECT_EQ(score.silent_notes, 2U);
+}
+
+/// Lengths of the notes of a part, by their keys [frames].
+std::multimap<int, std::uint64_t> note_ends(const ScorePart& part) {
+    std::multimap<int, std::uint64_t> ends;
+    for (const TimedEvent& timed : part.events)
+        if (timed.event.type == Type::NoteOff) ends.emplace(timed.event.key, timed.frame);
+    return ends;
+}
+
+MidiFile completed(MidiFile file) {
+    file.events = with_note_offs(file.events);
+    return file;
+}
+
+TEST(Score, ANoteWithoutItsNoteOffEndsWithTheNextOfItsKey) {
+    ScoreRules rules;
+    rules.preset = "p";
+    // The first note is never ended: without more ado the matching would hold the key to the end.
+    const Score score = make_score(completed(file_of({{0, {0x90, 60, 100}},
+                                                      {100, {0x90, 60, 100}},
+                                                      {100, {0x80, 60, 64}},
+                                                      {100, {0x90, 60, 100}},
+                                                      {100, {0x80, 60, 64}}})),
+                                   48000, rules);
+    EXPECT_EQ(note_ends(score.parts.at(0)),
+              (std::multimap<int, std::uint64_t>{{60, 4800}, {60, 9600}, {60, 19200}}));
+    // Whereas notes that overlap are both ended.
+    const Score overlap = make_score(
+        completed(file_of(
+            {{0, {0x90, 60, 100}}, {100, {0x90, 60, 100}}, {100, {0x80, 60, 64}}, {100, {0x80, 60, 64}}})),
+        48000, rules);
+    EXPECT_EQ(note_ends(overlap.parts.at(0)), (std::multimap<int, std::uint64_t>{{60, 14400}}));
+}
+
+TEST(Score, TempoAndMutedChannels) {
+    ScoreRules rules;
+    rules.preset = "p";
+    rules.tempo = 0.5;
+    rules.muted = 1U << 5U;
+    const Score score = make_score(
+        file_of({{100, {0x90, 60, 100}}, {0, {0x95, 62, 100}}, {100, {0x80, 60, 64}}}), 48000, rules);
+    ASSERT_EQ(score.parts.size(), 1U);
+    EXPECT_EQ(score.parts[0].notes, 1U);
+    EXPECT_EQ(score.muted_notes, 1U);
+    EXPECT_EQ(score.silent_notes, 0U);
+    EXPECT_EQ(score.parts[0].events[0].frame, 9600U);
+    EXPECT_EQ(score.end_frame, 19200U);
+}
+
+TEST(Score, PortsHaveChannelsOfTheirOwn) {
+    const auto make = [](const ScoreRules& rules) {
+        return make_score(file_of({{0, {0xC0, 5}},
+                                   {0, {0x90, 60, 100}},
+                                   {0, {0xFF, 0x21, 1, 1}},
+                                   {0, {0xE0, 0, 0}},
+                                   {0, {0x90, 61, 100}},
+                                   {0, {0xFF, 0x21, 1, 0}},
+                                   {10, {0x90, 62, 100}}}),
+                          48000, rules);
+    };
+    const Score score = make(by_program());
+    ASSERT_EQ(score.parts.size(), 2U);
+    EXPECT_EQ(score.parts[0].preset, "preset 0/5");
+    EXPECT_EQ(score.parts[0].notes, 2U);
+    EXPECT_EQ(count(score.parts[0], Type::Bend), 0U);
+    EXPECT_EQ(score.parts[1].preset, "preset 0/0");
+    EXPECT_EQ(score.parts[1].port, 1);
+    EXPECT_EQ(count(score.parts[1], Type::Bend), 1U);
+    ScoreRules one;
+    one.preset = "p";
+    EXPECT_EQ(make(one).parts.size(), 2U);
+}
+
+TEST(Score, WhatIsIgnoredIsCountedByKind) {
+    ScoreRules rules;
+    rules.preset = "p";
+    const Score score = make_score(file_of({{0, {0xB0, 91, 40}},
+                                            {0, {0xB5, 91, 40}},
+                                            {0, {0xB0, 7, 100}},
+                                            {0, {0xB0, 39, 100}},
+                                            {0, {0xB0, 99, 1}},
+                                            {0, {0xB0, 98, 8}},
+                                            {0, {0xB0, 6, 8}},
+                                            {0, {0xF0, 3, 0x42, 1, 0xF7}},
+                                            {0, {0xF7, 1, 0xF8}}}),
+                                   48000, rules);
+    std::vector<std::string> kinds;
+    for (const IgnoredKind& kind : score.ignored)
+        kinds.push_back(std::to_string(kind.count) + " " + kind.what);
+    EXPECT_EQ(kinds, (std::vector<std::string>{"1 NRPN 1/8", "1 bytes for other devices (F7)",
+                                               "1 controller 39 (fine half)", "2 controller 91 (reverb)",
+                                               "1 system exclusive: Korg"}));
 }
 
 TEST(Score, TheEndLetsGoOfEverything) {

@@ -17,7 +17,8 @@ const AudioFormat format{48000, SampleFormat::Float, 100, {"t", "c"}};
 const std::vector<std::vector<double>> signals{{0.5, -0.25}, {0, 2}, {1, 1}};
 
 void write(const std::string& path, const std::vector<std::string>& names) {
-    auto stems = StemFiles::create(path, names, format);
+    FilePlan files(false);
+    auto stems = StemFiles::create(path, names, format, files);
     ASSERT_TRUE(stems.ok()) << stems.error().message;
     ASSERT_FALSE(stems.value().write(signals));
     EXPECT_EQ(stems.value().clipped(), 1U);
@@ -47,12 +48,13 @@ TEST(StemFiles, AFileEach) {
 TEST(StemFiles, TooManyFilesOrNoFolder) {
     const TemporaryFolder folder;
     const std::vector<std::string> many(200, "x");
-    const auto refused = StemFiles::create(folder.file("stems/"), many, format);
+    FilePlan files(false);
+    const auto refused = StemFiles::create(folder.file("stems/"), many, format, files);
     ASSERT_FALSE(refused.ok());
     EXPECT_EQ(refused.error().kind, ErrorKind::Usage);
     EXPECT_NE(refused.error().message.find("one file for more than 128 strings, here 200"),
               std::string::npos);
-    EXPECT_EQ(StemFiles::create(folder.file("none/"), {"a"}, format).error().kind, ErrorKind::File);
+    EXPECT_EQ(StemFiles::create(folder.file("none/"), {"a"}, format, files).error().kind, ErrorKind::File);
 }
 
 }  // namespace

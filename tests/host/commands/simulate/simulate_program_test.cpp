@@ -50,9 +50,9 @@ TEST(Simulate, WrongCommandLinesAreOneLineAndExitCode2) {
     refused({"simulate", "lab/bass", "--out", "probes.txt"},
             "--out: probes.txt (allowed: a name that ends in");
     refused({"simulate", "lab/bass", "--plot", "bass.pdf"}, "--plot: bass.pdf (allowed: a name that ends in");
-    refused({"simulate", "lab/bass", "--out", "-", "--stats", "-"}, "--out: - (allowed: another name");
+    refused({"simulate", "lab/bass", "--out", "-", "--stats", "-"}, "--stats: - (allowed: another name");
     refused({"simulate", "lab/bass", "--stats", "a.svg", "--plot", "a.svg"},
-            "--stats: a.svg (allowed: another name than that of --plot)");
+            "--plot: a.svg (allowed: another name than that of the other outputs, here --stats a.svg)");
     refused({"simulate", "lab/bass", "--no-skip", "flight,nothing"},
             "--no-skip: nothing (allowed: all, flight, certificate, near, lazy, sleep)");
 }
@@ -145,7 +145,7 @@ TEST(Simulate, AFullDiskLeavesNothingInAnyFormat) {
             const TemporaryFolder folder;
             const std::string out = folder.write(name, "old");
             const Ran ran = simulate({"lab/bass", "--duration", "2", "--contact-rate", "15680", "--out", out,
-                                      "--stats", folder.file("stats.json")},
+                                      "--stats", folder.file("stats.json"), "--overwrite"},
                                      {.largest_file_bytes = room});
             expect_one_line(ran, 4, out + ": File too large");
             EXPECT_EQ(read_text(out), "old");

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
 #include <cmath>
 #include <string>
 
@@ -64,9 +69,39 @@ TEST(Scale, EachFaultIsNamedWithItsLine) {
     for (const char* pitch : {"",      "-4/3",       "0",     "0/1",      "1/0",
                               "4/-3",  "3//2",       "3/2/1", "abc",      "1e3",
                               "1.5e3", "100.0cents", "inf",   "nan",      "nan.",
-                              ".",     "1..2",       "5/4.0", "120000.5", "99999999999999999999/1"})
+                              ".",     "1..2",       "5/4.0", "120000.5", "1/99999999999999999999x"})
         EXPECT_NE(failure_of("x\n1\n" + std::string(pitch) + "\n").find("line 3:"), std::string::npos)
             << pitch;
+}
+
+TEST(Scale, APythagoreanChainInExactRatios) {
+    // Each note is n fifths of 3/2, less octaves: 1200 log2(3/2) cents each.
+    std::ifstream file(JAWARI_SOURCE_DIR "/tests/data/cases/tuning/32_pyth41.scl");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const auto scale = parse_scale(text);
+    ASSERT_TRUE(scale.ok()) << scale.failure().line();
+    ASSERT_EQ(scale.value().cents.size(), 41U);
+    std::vector<double> expected;
+    for (int n = -41; n <= 41; ++n)
+        expected.push_back(std::fmod(1200 * std::log2(1.5) * n + 1200 * 41, 1200));
+    for (const double cents : scale.value().cents) {
+        const bool found =
+            cents == 1200 || std::any_of(expected.begin(), expected.end(),
+                                         [cents](double each) { return std::abs(each - cents) < 1e-9; });
+        EXPECT_TRUE(found) << cents;
+    }
+    EXPECT_EQ(scale.value().cents.back(), 1200);
+}
+
+TEST(Scale, PartsOfManyDigits) {
+    const std::string three(300, '3'), one(300, '1');
+    const auto scale = parse_scale("x\n2\n" + three + "/" + one + "\n" + three + "0/" + three + "\n");
+    ASSERT_TRUE(scale.ok()) << scale.failure().line();
+    EXPECT_NEAR(scale.value().cents[0], 1200 * std::log2(3.0), 1e-9);
+    EXPECT_NEAR(scale.value().cents[1], 1200 * std::log2(10.0), 1e-9);
+    EXPECT_FALSE(parse_scale("x\n1\n" + three + "x/1\n").ok());
+    EXPECT_FALSE(parse_scale("x\n1\n" + std::string(1001, '3') + "/1\n").ok());
+    EXPECT_FALSE(parse_scale("x\n1\n3/" + std::string(300, '0') + "\n").ok());
 }
 
 }  // namespace
