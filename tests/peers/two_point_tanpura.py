@@ -122,7 +122,7 @@ def allowed(rate):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--jawari", required=True, help="the program")
-    parser.add_argument("--scene", default=os.path.join(HERE, "scenes/two_point_tanpura.json"))
+    parser.add_argument("--scene", default=os.path.join(HERE, "../../presets/scenes/lab/tanpura.json"))
     parser.add_argument("--check", action="store_true", help="only the verdict")
     parser.add_argument("--reference-height-m", type=float, help="of the point in the reference; default: as in the scene")
     options = parser.parse_args()
