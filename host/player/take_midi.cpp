@@ -86,7 +86,8 @@ TakeMidi::TakeMidi(TakeMidi&& other) noexcept
       descriptor_(std::exchange(other.descriptor_, -1)),
       pending_(std::move(other.pending_)),
       track_end_(other.track_end_),
-      frame_(other.frame_) {}
+      frame_(other.frame_),
+      open_(std::move(other.open_)) {}
 
 TakeMidi& TakeMidi::operator=(TakeMidi&& other) noexcept {
     std::swap(path_, other.path_);
@@ -94,6 +95,7 @@ TakeMidi& TakeMidi::operator=(TakeMidi&& other) noexcept {
     std::swap(pending_, other.pending_);
     std::swap(track_end_, other.track_end_);
     std::swap(frame_, other.frame_);
+    std::swap(open_, other.open_);
     return *this;
 }
 
@@ -114,9 +116,21 @@ void TakeMidi::add(const CapturedMessage& captured) {
         pending_.push_back(static_cast<char>(0xF7));
         return;
     }
+    note_key(message);
     pending_.push_back(static_cast<char>(message.status));
     pending_.push_back(static_cast<char>(message.data1));
     if (data_bytes(message.status) == 2) pending_.push_back(static_cast<char>(message.data2));
+}
+
+void TakeMidi::note_key(const ChannelMessage& message) {
+    const unsigned kind = message.status & 0xF0U;
+    if (kind != 0x80 && kind != 0x90) return;
+    std::uint16_t& open = open_[(message.status & 0xFU) << 7U | (message.data1 & 0x7FU)];
+    if (kind == 0x90 && message.data2 > 0) {
+        open = static_cast<std::uint16_t>(std::min(open + 1, 0xFFFF));
+    } else if (open > 0) {
+        open = static_cast<std::uint16_t>(open - 1);
+    }
 }
 
 /// The events first, then the length that makes them count. A program killed between the two calls,
@@ -124,6 +138,15 @@ void TakeMidi::add(const CapturedMessage& captured) {
 MaybeError TakeMidi::update(std::uint64_t end_frame) {
     std::string bytes = pending_;
     append_delta_time(bytes, end_frame > frame_ ? end_frame - frame_ : 0);
+    // A reader that completes missing note-offs would end notes of keys that are down before they were let
+    // go.
+    for (std::size_t key = 0; key < open_.size(); ++key) {
+        for (unsigned count = open_[key]; count > 0; --count) {
+            bytes.push_back(static_cast<char>(0x80U | key >> 7U));
+            bytes.push_back(static_cast<char>(key & 0x7FU));
+            bytes.append("\x40\x00", 2);  // and the delta time of what follows
+        }
+    }
     bytes.append("\xFF\x2F\x00", 3);
     if (auto error = write_at(track_end_, bytes)) return error;
     const std::uint64_t length = track_end_ + bytes.size() - header_bytes - track_header_bytes;

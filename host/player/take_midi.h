@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "player/capture_ring.h"
@@ -33,12 +34,14 @@ class TakeMidi {
 
     /// In order of frames.
     void add(const CapturedMessage& captured);
-    /// Writes what was added, and that the piece lasts until `end_frame`: afterwards the file is whole.
+    /// Writes what was added, and that the piece lasts until `end_frame`, where keys that are down go up:
+    /// afterwards the file is whole.
     MaybeError update(std::uint64_t end_frame);
     MaybeError close(std::uint64_t end_frame);
 
   private:
     TakeMidi(std::string path, int descriptor) : path_(std::move(path)), descriptor_(descriptor) {}
+    void note_key(const ChannelMessage& message);
     MaybeError write_at(std::uint64_t offset, const std::string& bytes);
 
     std::string path_;
@@ -46,6 +49,7 @@ class TakeMidi {
     std::string pending_;          // bytes of events not yet in the file
     std::uint64_t track_end_ = 0;  // offset behind the last event in the file, where the end of track stands
     std::uint64_t frame_ = 0;      // of the last event
+    std::vector<std::uint16_t> open_ = std::vector<std::uint16_t>(16 * 128);  // notes held, of each key
 };
 
 }  // namespace jawari::host

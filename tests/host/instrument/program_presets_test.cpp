@@ -32,7 +32,9 @@ TEST(ProgramPresets, EveryPitchedProgramHasOnePresetAndEffectsHaveNone) {
         const bool unpitched = program == 113 || program >= 115;
         const auto own = program_preset(0, program), nearest = nearest_preset(program);
         EXPECT_EQ(own.has_value() + nearest.has_value(), unpitched ? 0 : 1) << program;
-        if (nearest) EXPECT_TRUE(std::find(all.begin(), all.end(), *nearest) != all.end()) << program;
+        if (nearest) {
+            EXPECT_TRUE(std::find(all.begin(), all.end(), *nearest) != all.end()) << program;
+        }
     }
 }
 

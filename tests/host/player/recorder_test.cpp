@@ -128,7 +128,11 @@ TEST(LiveRecorder, ItsMidiHasEveryMessageAtItsFrame) {
         take.value().add({0, {0xC0, 5, 0}});
         take.value().add({127, {0x90, 60, 100}});
         ASSERT_FALSE(take.value().update(200));
-        EXPECT_EQ(parsed(path).events.size(), 2U) << rate;  // whole although it goes on
+        const MidiFile begun =
+            parsed(path);  // whole although it goes on: the key that is down goes up at the end
+        ASSERT_EQ(begun.events.size(), 3U) << rate;
+        EXPECT_EQ(begun.events[2].status, 0x80) << rate;
+        EXPECT_EQ(frame_of(begun, begun.events[2].time, rate), 200U);
         take.value().add({128, {0x80, 60, 1}});
         take.value().add({300'000'000, {0xE5, 1, 2}});  // longer than one delta time can be
         ASSERT_FALSE(take.value().close(300'000'500));

@@ -144,7 +144,7 @@ TEST(Cases, SostenutoHoldsWhatIsDown) {
     const double e3_hz = 440 * std::exp2((52 - 69) / 12.0);
     const double ratio = power_at(between(held, 1.0, 1.9), e3_hz) / power_at(between(ended, 1.0, 1.9), e3_hz);
     EXPECT_GT(10 * std::log10(ratio), 25);
-    const auto end = held.sound.size() / rate_hz;  // and lets go when it goes up
+    const double end = static_cast<double>(held.sound.size()) / rate_hz;  // and lets go when it goes up
     EXPECT_LT(level_db(between(held, end - 0.1, end)), level_db(between(held, 1.0, 1.9)) - 25);
 }
 

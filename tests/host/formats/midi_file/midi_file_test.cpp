@@ -311,7 +311,9 @@ void expect_track_order(const std::vector<Line>& lines, const std::vector<Line>&
     std::set<std::uint64_t> noted;                  // ticks with a note so far
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const std::uint64_t tick = std::get<0>(lines[i]);
-        if (i > 0) EXPECT_GE(tick, std::get<0>(lines[i - 1]));
+        if (i > 0) {
+            EXPECT_GE(tick, std::get<0>(lines[i - 1]));
+        }
         const std::pair track{tick, std::get<1>(lines[i])};
         if (is_note(lines[i])) {
             begun.insert(track);
