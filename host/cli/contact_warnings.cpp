@@ -34,8 +34,10 @@ std::string counted(const std::string& kind, const std::vector<Occurrence>& foun
     std::vector<std::string> texts;
     for (const Occurrence& each : found) {
         if (texts.size() == most_named_parts) break;
-        texts.push_back(kind + " " + in_quotes(each.name) + ": " + std::to_string(each.count) + " of " +
-                        std::to_string(each.of) + " " + unit);
+        std::string text = kind;
+        text.append(" ").append(in_quotes(each.name)).append(": ").append(std::to_string(each.count));
+        text.append(" of ").append(std::to_string(each.of)).append(" ").append(unit);
+        texts.push_back(std::move(text));
     }
     const std::size_t more = found.size() - texts.size();
     return join(texts) + (more > 0 ? " and " + std::to_string(more) + " more" : "");

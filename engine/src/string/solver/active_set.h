@@ -42,8 +42,8 @@ bool thin_active(const ActiveSetProblem& p);
 /// The active set becomes the candidates with a positive impulse; the factor's rows that agree stay.
 void adopt_active_set(const ActiveSetProblem& p);
 
-/// x <- A_FF^{-1} x over the active contacts.
-void solve_with_factor(const ActiveSetProblem& p, AlignedVector<double>& x);
+/// storage <- A_FF^{-1} storage over the active contacts.
+void solve_with_factor(const ActiveSetProblem& p, AlignedVector<double>& storage);
 
 /// solution <- -A_FF^{-1} r_F
 void solve_active(const ActiveSetProblem& p);

@@ -24,8 +24,8 @@ constexpr std::size_t mode_stride =
 constexpr std::size_t mode_stride = 1;
 #endif
 
-/// The 862 damped modes of smooth/bass. Modes above the step's Nyquist rate, and far above it, are among them at
-/// every rate.
+/// The 862 damped modes of smooth/bass. Modes above the step's Nyquist rate, and far above it, are among them
+/// at every rate.
 Modes bass_modes() {
     StringDescription string;
     string.length_m = 0.863;

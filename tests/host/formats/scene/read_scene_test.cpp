@@ -304,8 +304,8 @@ TEST(InFileTerms, ContactsOfFretsAndNeckNameTheirOwnKeys) {
 }
 
 TEST(LoadScene, BuiltInScenesAreTheFilesOfThePresets) {
-    ASSERT_EQ(builtin_scene_names(),
-              (std::vector<std::string>{"lab/bass", "lab/fretless", "lab/one-contact", "lab/tanpura", "smooth/bass"}));
+    ASSERT_EQ(builtin_scene_names(), (std::vector<std::string>{"lab/bass", "lab/fretless", "lab/one-contact",
+                                                               "lab/tanpura", "smooth/bass"}));
     for (const std::string& name : builtin_scene_names()) {
         const auto scene = load_scene(name);
         ASSERT_TRUE(scene) << scene.error().message;
