@@ -18,7 +18,7 @@ constexpr std::uint8_t meta_tempo = 0x51;
 constexpr std::size_t longest_variable_length = 4;
 
 /// Kinds of repairs: one notice a track for each.
-enum Repair {
+enum TrackRepair {
     NoEnd,
     AfterEnd,
     CutEvent,
@@ -67,7 +67,7 @@ class TrackParser {
 
   private:
     /// What is wrong at `offset`, and what a lenient reading takes it for.
-    bool repair(Repair kind, std::size_t offset, const std::string& value, const std::string& allowed,
+    bool repair(TrackRepair kind, std::size_t offset, const std::string& value, const std::string& allowed,
                 const std::string& assumed) {
         return notes_.repair(offset, index_, kind, value, allowed, assumed);
     }
