@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/assert.h"
 #include "string/broad_phase/gap_bounds.h"
 #include "string/contact/contact_stage.h"
 
@@ -13,6 +14,7 @@ namespace {
 double push_of_step(const StringModel& model, const StringState& state, std::size_t g) {
     const StringShape& shape = *model.shape;
     const ContactState& contact = state.contact;
+    JAWARI_ASSERT(shape.certificate.push_speed.size() == group_count(model) * shape.contact_count);
     const double* push_speed = shape.certificate.push_speed.data() + g * shape.contact_count;
     double speed = 0;
     for (const auto c : contact.candidates) speed += push_speed[c] * contact.impulse[c];

@@ -21,12 +21,14 @@ struct Sizes {
     double modes, contacts, padded_contacts, groups, steps;
     double factored;                               ///< active contacts that solve_lcp() factors, at most
     double pivots, table_pivots, gradient_rounds;  ///< at most
+    double room;  ///< active contacts of pivots after projected gradients, or 0
 };
 
 Sizes counted_sizes(const StringModel& model) {
     const std::size_t groups =
         model.shape->certificate.group_begin.empty() ? 0 : model.shape->certificate.group_begin.size() - 1;
     const std::size_t factored = std::min(model.shape->contact_count, largest_factor);
+    const bool large = model.shape->contact_count > largest_factor;
     return {static_cast<double>(model.shape->stride),
             static_cast<double>(model.shape->contact_count),
             static_cast<double>(model.shape->contact_stride),
@@ -35,7 +37,8 @@ Sizes counted_sizes(const StringModel& model) {
             static_cast<double>(factored),
             static_cast<double>(most_pivots(factored)),
             static_cast<double>(most_table_pivots(model.shape->contact_count)),
-            static_cast<double>(model.shape->contact_count > largest_factor ? most_gradient_rounds : 0)};
+            static_cast<double>(large ? most_gradient_rounds : 0),
+            static_cast<double>(large ? std::min(model.shape->contact_count, model.shape->stride) : 0)};
 }
 
 /// Bounds afresh, gaps at both ends of the frame, and the flight between them.
@@ -70,12 +73,20 @@ double steady_solve(const Sizes& n) {
     return n.factored * (n.factored + 1) + square(n.contacts);
 }
 
-/// All pivots that solve_lcp() may take, each with a factor anew in the worst case, and all rounds of
-/// projected gradients where the factor has no room.
+/// All rounds of projected gradients, and all pivots after them: those exchange rows of a large factor, each
+/// in four triangular solves' operations; at most all of them leave it again while it is thinned.
+double longest_large_solve(const Sizes& n) {
+    if (n.gradient_rounds == 0) return 0;
+    const double pivots = 4 * n.room + 16 + 2 * n.room;
+    return 2 * (n.gradient_rounds + 2) * square(n.contacts) +
+           pivots * (8 * square(n.room) + n.room * n.contacts);
+}
+
+/// All pivots that solve_lcp() may take, each with a factor anew in the worst case, and what follows where
+/// the factor has no room.
 double longest_solve(const Sizes& n) {
     const double factor = n.factored * square(n.factored) / 3;
-    const double rounds = n.gradient_rounds > 0 ? 2 * (n.gradient_rounds + 2) * square(n.contacts) : 0;
-    return 2 * n.contacts * n.factored + rounds +
+    return 2 * n.contacts * n.factored + longest_large_solve(n) +
            n.pivots * (2 * factor + 4 * square(n.factored) + n.factored * n.contacts);
 }
 
@@ -136,8 +147,10 @@ FrameCost frame_cost(const StringModel& model) JAWARI_REALTIME {
         cost.bound = looking(n) + planning(n) + stepped(n) + n.contacts * (spread(n) + longest_solves);
     } else {
         cost.permanent_contact = looking(n) + free_run(n) + impulse_run(n) + spread(n) + solves;
+        // Where impulses are so many that stepping costs less, the frame begins in contact space and is
+        // stepped.
         cost.bound = looking(n) + planning(n) + n.contacts * (free_run(n) + spread(n) + longest_solves) +
-                     impulse_run(n);
+                     impulse_run(n) + stepped(n) + longest_solves;
     }
     return cost;
 }

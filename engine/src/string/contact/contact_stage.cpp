@@ -12,9 +12,6 @@
 namespace jawari {
 namespace {
 
-/// Up to so many impulses their responses are added one by one.
-constexpr std::size_t few_sources = 32;
-
 ContactMoment moment_of(const StringModel& model, const ContactState& contact, std::size_t c) {
     ContactMoment moment;
     moment.gap = contact.gap[c];
@@ -186,7 +183,7 @@ void accept_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
         impulses += 1;
     }
     state.counters.impulses += impulses;
-    if (impulses > few_sources) {
+    if (impulses > kernels::few_sources) {
         kernels::add_responses(A, contact.candidates.span(), contact.impulse.data(), contact.near.span(),
                                contact.gap.data());
     } else {

@@ -55,7 +55,8 @@ bool steps_uniformly(const StringModel& model, const StringState& state) JAWARI_
 /// | short frames, had impulses in the last frame        |                      | Short              |
 /// | short frames, a force acts and backs off from tests |                      | Short              |
 /// | short frames                                        | PlanFailed, MayClose | Short              |
-/// | a response table, and near frames allowed           | MayClose             | NearInContactSpace |
+/// | a response table, near frames allowed, the last one |                      |                    |
+/// | not crowded with impulses (NearState::crowded)      | MayClose             | NearInContactSpace |
 /// | any                                                 | MayClose             | NearStepped        |
 /// | any                                                 | NotAsked, PlanFailed | (test the frame)   |
 std::optional<FrameKind> choose_frame_kind(const StringModel& model, const StringState& state,

@@ -2,12 +2,16 @@
 // vector, for active sets that are too large for a factor.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "jawari/detail/lcp.h"
 
 namespace jawari::kernels {
+
+/// Up to so many sources are added as fast one by one.
+inline constexpr std::size_t few_sources = 32;
 
 /// out[t] += sum of A(s, t) x[s] over the sources s, for the targets t. Fast where the targets follow each
 /// other (on a grid: at neighbouring nodes); correct in any order. `x` and `out` do not overlap.

@@ -12,8 +12,6 @@ namespace jawari {
 namespace {
 
 constexpr int predictor_sweeps = 2;
-// Up to so many active contacts their responses are summed one by one.
-constexpr std::size_t few_sources = 32;
 // Of nearly dependent contacts, rounding may come to this many times the tolerance.
 constexpr double largest_rounding = 1000;
 // Nothing is done about violations below this: their tolerance would underflow.
@@ -47,7 +45,7 @@ void solve_and_thin(const Problem& p) {
 void update_residual(const Problem& p) {
     for (const auto c : p.candidates) p.residual[c] = p.r[c];
     const std::span<const std::uint32_t> active(p.work.active.data(), p.work.active_count);
-    if (active.size() > few_sources) {
+    if (active.size() > kernels::few_sources) {
         kernels::add_responses(p.A, active, p.lambda.data(), p.candidates, p.residual.data());
         return;
     }

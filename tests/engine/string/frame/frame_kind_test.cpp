@@ -97,6 +97,8 @@ TEST(FrameKind, LongFramesFollowTheBroadPhase) {
     StringModel without_table = long_model();
     without_table.tuning.response = {};
     EXPECT_EQ(choose_frame_kind(without_table, state, Answer::MayClose), FrameKind::NearStepped);
+    state.near_frame.crowded = true;
+    EXPECT_EQ(choose_frame_kind(long_model(), state, Answer::MayClose), FrameKind::NearStepped);
 }
 
 TEST(FrameKind, ShortFramesAreSolvedWithoutATestWhereContactIsLikely) {
