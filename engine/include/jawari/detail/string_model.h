@@ -44,8 +44,7 @@ struct CertificateShape {
     std::vector<std::size_t> group_begin;  ///< first contact of each group, and the contact count at the end
     AlignedVector<double> envelope;        ///< max over a group's contacts of |phi_k|, groups x stride
     /// What 1 N s at contact c adds to the rate of the gaps of group g at most, at the compiled tension
-    /// [1/kg], groups x contact_count. Empty where push_path says more and it would be large: with a response
-    /// table and more than contacts_with_own_bounds contacts.
+    /// [1/kg], groups x contact_count.
     std::vector<double> push_speed;
     /// A gap of contact c falls by at most reach[c] sqrt(H) below -b_c, at any step, while the string's
     /// energy is below H, at the compiled tension [m/J^(1/2)]. Empty if it is not known.

@@ -258,9 +258,6 @@ struct StringState {
     bool asleep = false;                 ///< refresh_bounds(), notice_change()
     bool leaves_obstacles = false;       ///< leave_obstacles(), reset()
     Skipping skipping;
-    /// Frames with a contact that may close evaluate only such contacts, if `skipping` lets them; false at a
-    /// tension for which it is not known how impulses push the others.
-    bool steps_near = true;
     Metering metering = Metering::Off;
     ExcitationState excitation;
     ContactState contact;

@@ -48,9 +48,6 @@ void begin(const StoppedStringModel& stopped, Voice& voice) {
     std::copy(stopped.backward_q.begin(), stopped.backward_q.end(), bend.backward_q.begin());
     std::copy(stopped.backward_u.begin(), stopped.backward_u.end(), bend.backward_u.begin());
     bend.active = true;
-    // There is no response table at this tension: where frames are not short, near ones are stepped, with all
-    // contacts if it is not known how impulses push those that are not near.
-    voice.string.steps_near = !bend.model.shape->certificate.push_speed.empty();
 }
 
 void restore(const StoppedStringModel& stopped, Voice& voice) {
@@ -125,7 +122,6 @@ void set_bend(const StoppedStringModel& stopped, Voice& voice, double semitones,
 void forget_bend(Voice& voice) JAWARI_REALTIME {
     voice.bend.active = false;
     voice.bend.semitones = 0;
-    voice.string.steps_near = true;
 }
 
 }  // namespace jawari

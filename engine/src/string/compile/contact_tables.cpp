@@ -221,7 +221,6 @@ void set_responses(StringDraft& draft) {
     } else {
         set_grid_responses(draft);
     }
-    if (count > contacts_with_own_bounds) shape.certificate.push_speed = {};
     const std::vector<std::size_t>& begin = shape.certificate.group_begin;
     std::vector<double>& path = tuning.certificate.push_path;
     path.assign((begin.size() - 1) * count, 0.0);

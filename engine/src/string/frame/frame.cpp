@@ -97,9 +97,6 @@ bool pass_near(const StringModel& model, StringState& state, FrameKind kind) {
     const std::uint64_t impulses_before = state.counters.impulses;
     NearOutcome outcome = NearOutcome::Crowded;
     if (kind == FrameKind::NearInContactSpace) outcome = solve_near_frame(model, state);
-    // Steps leave contacts out only if it is known how far impulses push those at any step.
-    const bool steps_all = model.shape->certificate.push_speed.empty();
-    if (outcome == NearOutcome::Crowded && steps_all) choose_all_contacts(model, state);
     const bool in_contact_space = outcome != NearOutcome::Crowded;
     const bool struck = in_contact_space ? outcome == NearOutcome::Struck : step_through(model, state);
     state.near_frame.crowded = is_crowded(model, state, state.counters.impulses - impulses_before);

@@ -33,7 +33,7 @@ bool sleeps_on(const StringState& state) JAWARI_REALTIME;
 
 /// Whether frames with contacts that may close leave out all other contacts.
 inline bool evaluates_near_alone(const StringState& state) noexcept {
-    return state.skipping.near && state.steps_near;
+    return state.skipping.near;
 }
 
 /// Whether frames with contact are solved as short ones.

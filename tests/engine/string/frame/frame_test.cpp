@@ -133,7 +133,7 @@ SceneDescription lying_on_a_bridge(std::size_t points) {
 }
 
 TEST(Skipping, AgreesOnFramesCrowdedWithImpulses) {
-    // With bounds for each contact, and with bounds that they share: then steps take all contacts.
+    // With bounds for each contact, and with bounds that they share.
     for (const std::size_t points : {60U, 120U}) {
         const SceneDescription scene = lying_on_a_bridge(points);
         expect_same(scene, skip_all, 60, std::to_string(points) + " points");
