@@ -103,7 +103,7 @@ def check(build):
         elif case == "point obstacle (Cabannes)":
             good = last["error"] < 0.015 and (method != "exact, signorini" or 0.9 < last["order"] < 1.1)
         elif case == "single impact" and exact_scheme:
-            good = last["error"] < (2e-3 if "paoli" in method else 2e-5)
+            good = last["error"] < 2e-5
         else:
             good = last["error"] < 0.03
         if not good:
