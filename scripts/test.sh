@@ -17,7 +17,6 @@ esac
 
 jobs=$(nproc)
 export CTEST_PARALLEL_LEVEL=$jobs
-export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1  # tests run side by side; numpy and Siconos must not multiply them
 export UBSAN_OPTIONS=print_stacktrace=1
 logs=$(mktemp -d) || exit 1
 trap 'rm -rf "$logs"' EXIT
@@ -62,7 +61,8 @@ build() {
 tests() {
     local preset=$1
     shift
-    stage "tests ($preset)" ctest --preset "$preset" --no-tests=error --output-junit "$logs/junit.xml" "$@"
+    # Tests run side by side; numpy and Siconos must not multiply them. Not for all stages: nproc obeys OMP_NUM_THREADS too.
+    stage "tests ($preset)" env OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 ctest --preset "$preset" --no-tests=error --output-junit "$logs/junit.xml" "$@"
     test_runs+=("" "$preset:" "$(sed -n '/% tests passed/,$p' "$logs/last")" "$(scripts/skipped_tests.py "$logs/junit.xml")")
 }
 

@@ -13,14 +13,13 @@ namespace {
 
 const char* const pitch_allowed =
     "a ratio of whole numbers above 0, of up to 1000 digits each, such as 3/2, or cents with a period such "
-    "as "
-    "701.955, up to 120000";
+    "as 701.955, up to 120000";
 
 /// log2 of a whole number above 0 of any length. Digits beyond the 18 first change it by less than 1e-17.
 std::optional<double> log2_of_digits(std::string_view digits) {
-    constexpr std::size_t most_digits = 1000, counted = 18;
+    constexpr std::size_t longest = 1000, counted = 18;
     while (digits.starts_with('0')) digits.remove_prefix(1);
-    if (digits.empty() || digits.size() > most_digits) return std::nullopt;
+    if (digits.empty() || digits.size() > longest) return std::nullopt;
     if (digits.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
     const auto first = whole_number(digits.substr(0, counted));
     const auto rest = static_cast<double>(digits.size() - std::min(digits.size(), counted));

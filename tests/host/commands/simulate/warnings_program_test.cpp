@@ -105,10 +105,11 @@ struct Campaign {
 class LowRates : public testing::TestWithParam<Campaign> {};
 
 TEST_P(LowRates, AreWarnedOfWhereTheAnswerIsWrong) {
-    const auto [scene, law] = GetParam();
+    const Campaign& campaign = GetParam();
     const auto run = [&](int steps) {
-        return simulate({scene, "--law", law, "--restitution", "0", "--duration", "0.1", "--output-rate",
-                         "15680", "--contact-rate", std::to_string(15680 * steps), "--out", "-"});
+        return simulate({campaign.scene, "--law", campaign.law, "--restitution", "0", "--duration", "0.1",
+                         "--output-rate", "15680", "--contact-rate", std::to_string(15680 * steps), "--out",
+                         "-"});
     };
     const auto truth = displacements(run(1024).out);
     std::size_t warned = 0;
