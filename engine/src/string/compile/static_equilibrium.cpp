@@ -2,13 +2,38 @@
 
 #include <algorithm>
 #include <numeric>
+#include <vector>
 
 #include "jawari/detail/lcp.h"
+#include "string/compile/block_pivots.h"
 #include "string/compile/contact_tables.h"
 #include "string/kernels/mode_sums.h"
 #include "string/model/contact_response.h"
 
 namespace jawari {
+namespace {
+
+/// Contact by contact, also where contacts depend on one another.
+std::optional<std::vector<double>> solve_by_single_pivots(const ContactOperator& A,
+                                                          std::span<const double> gap) {
+    const std::size_t count = gap.size();
+    std::vector<std::uint32_t> candidates(count);
+    std::iota(candidates.begin(), candidates.end(), 0U);
+    std::vector<double> force(count, 0.0);
+    std::vector<double> residual(count, 0.0);
+    LcpWorkspace workspace = make_lcp_workspace(count, {count, count, 0});
+    if (!solve_lcp(A, gap, candidates, force, residual, workspace).finished) return {};
+    return force;
+}
+
+std::optional<std::vector<double>> forces(const ContactOperator& A, std::span<const double> gap) {
+    if (gap.size() > largest_factor) {
+        if (auto force = solve_by_block_pivots(A, gap)) return force;
+    }
+    return solve_by_single_pivots(A, gap);
+}
+
+}  // namespace
 
 std::optional<AlignedVector<double>> held_displacement(const StringModel& model,
                                                        std::span<const double> displacement) {
@@ -32,16 +57,11 @@ std::optional<AlignedVector<double>> held_displacement(const StringModel& model,
     static_compliance.values = values.data();
     static_compliance.id = 0;
     static_compliance.norm = 0;
-    std::vector<std::uint32_t> candidates(count);
-    std::iota(candidates.begin(), candidates.end(), 0U);
-    AlignedVector<double> force(model.shape->contact_stride, 0.0);
-    AlignedVector<double> residual(model.shape->contact_stride, 0.0);
-    LcpWorkspace workspace = make_lcp_workspace(count, {count, count, 0});
-    const LcpOutcome outcome = solve_lcp(static_compliance, gap, candidates, force, residual, workspace);
-    if (!outcome.finished) return {};
+    const auto force = forces(static_compliance, std::span<const double>(gap).first(count));
+    if (!force) return {};
     for (std::size_t c = 0; c < count; ++c) {
-        if (force[c] > 0) {
-            kernels::add_impulse(n, force[c], compliance_of_mode.data(),
+        if ((*force)[c] > 0) {
+            kernels::add_impulse(n, (*force)[c], compliance_of_mode.data(),
                                  model.shape->contact_rows.data() + c * n, held.data());
         }
     }
