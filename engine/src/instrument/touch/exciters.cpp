@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "instrument/touch/touches.h"
@@ -12,8 +13,10 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Halvings of the bracket of a hammer's force: to the last bits of a double.
-constexpr int most_halvings = 60;
+/// Of a hammer's compression: enough for halvings alone to reach the last bits of a double.
+constexpr int most_iterations = 60;
+/// Share of the compression up to which its change is small.
+constexpr double small_change = 0.01;
 /// A hammer that has not met the string, or not left it, by then is taken away [s].
 constexpr double longest_stroke_s = 0.1;
 
@@ -33,55 +36,81 @@ double finger_force(ExciterState& exciter) {
 
 // ---------------------------------------------------------------------------------------------- hammer
 
-double felt_potential(const ExciterState& hammer, double compression) {
-    if (compression <= 0) return 0;
-    return hammer.stiffness * std::pow(compression, hammer.exponent + 1) / (hammer.exponent + 1);
-}
-
 double felt_force(const ExciterState& hammer, double compression) {
     return compression > 0 ? hammer.stiffness * std::pow(compression, hammer.exponent) : 0.0;
 }
 
-/// The discrete gradient of the potential, with the loss.
+/// V at a compression whose force is known: K xi^(p+1)/(p+1).
+double felt_potential(const ExciterState& hammer, double compression, double force) {
+    return force * compression / (hammer.exponent + 1);
+}
+
+/// The felt at the frame's start.
 struct FeltStep {
     double before = 0;          ///< xi
     double potential = 0;       ///< V(xi)
     double loss_per_metre = 0;  ///< K xi^p loss/T
 };
 
-double felt_force_over(const ExciterState& hammer, const FeltStep& step, double after) {
+/// A force and how it changes with the compression.
+struct FeltForce {
+    double force_N = 0;
+    double stiffness_N_per_m = 0;
+};
+
+/// The discrete gradient of the potential, with the loss, at the compression at the frame's end. It rises
+/// with the compression.
+FeltForce felt_force_over(const ExciterState& hammer, const FeltStep& step, double after) {
     const double change = after - step.before;
-    const double size = std::max(std::abs(after), std::abs(step.before));
-    const double elastic = std::abs(change) <= 1e-6 * size
-                               ? felt_force(hammer, step.before + change / 2)
-                               : (felt_potential(hammer, after) - step.potential) / change;
-    return std::max(0.0, elastic + step.loss_per_metre * change);
+    FeltForce felt;
+    if (step.before > 0 && std::abs(change) < small_change * step.before) {
+        // The difference of the potentials without its cancellation.
+        const double order = hammer.exponent + 1;
+        const double growth = std::expm1(order * std::log1p(change / step.before));
+        const double start = order * step.potential / step.before;
+        felt.force_N = change == 0 ? start : step.potential * growth / change;
+        felt.stiffness_N_per_m = hammer.exponent * start / (2 * step.before);
+    } else if (change != 0) {
+        const double force = felt_force(hammer, after);
+        felt.force_N = (felt_potential(hammer, after, force) - step.potential) / change;
+        felt.stiffness_N_per_m = (force - felt.force_N) / change;
+    }
+    felt.force_N += step.loss_per_metre * change;
+    felt.stiffness_N_per_m += step.loss_per_metre;
+    return felt.force_N > 0 ? felt : FeltForce{};
 }
 
-/// xi+ = free - give F(xi+): the left side less the right rises with xi+, so halving finds it.
+/// xi+ = free - give F(xi+): the left side less the right rises with xi+. Newton's method, and halvings of
+/// the bracket where it would leave that.
 double solve_compression(const ExciterState& hammer, const FeltStep& step, double free_m, double give) {
     double high = free_m;  // F >= 0
-    if (felt_force_over(hammer, step, high) == 0) return free_m;
     double low = std::min(0.0, std::min(free_m, step.before)) - std::sqrt(give * step.potential);
-    for (int i = 0; i < most_halvings; ++i) {
-        const double middle = low + (high - low) / 2;
-        if (middle <= low || middle >= high) break;
-        const double excess = middle - free_m + give * felt_force_over(hammer, step, middle);
-        (excess > 0 ? high : low) = middle;
+    double after = free_m;
+    for (int i = 0; i < most_iterations; ++i) {
+        const FeltForce felt = felt_force_over(hammer, step, after);
+        const double excess = after - free_m + give * felt.force_N;
+        if (excess == 0) break;
+        (excess > 0 ? high : low) = after;
+        double next = after - excess / (1 + give * felt.stiffness_N_per_m);
+        if (!(next > low && next < high)) next = low + (high - low) / 2;
+        const double move = std::abs(next - after);
+        after = next;
+        if (move <= std::numeric_limits<double>::epsilon() * std::abs(next)) break;
     }
-    return low + (high - low) / 2;
+    return after;
 }
 
 double hammer_force(const StringAtExciter& at, ExciterState& hammer) {
     const double T = at.frame_s;
     FeltStep step;
     step.before = hammer.position_m - at.displacement_m;
-    step.potential = felt_potential(hammer, step.before);
-    step.loss_per_metre = hammer.loss_s_per_m * felt_force(hammer, step.before) / T;
+    const double force_before = felt_force(hammer, step.before);
+    step.potential = felt_potential(hammer, step.before, force_before);
+    step.loss_per_metre = hammer.loss_s_per_m * force_before / T;
     const double give = T * T / (2 * hammer.mass_kg) + at.give_m_per_N;
     const double free_m = hammer.position_m + T * hammer.speed_m_per_s - (at.displacement_m + at.rise_m);
     const double after = solve_compression(hammer, step, free_m, give);
-    const double force = felt_force_over(hammer, step, after);
+    const double force = felt_force_over(hammer, step, after).force_N;
     hammer.position_m += T * hammer.speed_m_per_s - T * T * force / (2 * hammer.mass_kg);
     hammer.speed_m_per_s -= T * force / hammer.mass_kg;
     hammer.has_touched = hammer.has_touched || force > 0;

@@ -258,6 +258,66 @@ TEST(Hammer, OnAnImmobileStringIsAMassOnASpring) {
     EXPECT_NEAR(touches.exciter.speed_m_per_s, -2, 1e-3);
 }
 
+/// xi+ of the law by 200 halvings in long double.
+long double compression_by_halving(const ExciterState& hammer, const StringAtExciter& at) {
+    const auto V = [&](long double xi) {
+        return xi <= 0 ? 0.0L
+                       : hammer.stiffness * std::pow(xi, hammer.exponent + 1.0L) / (hammer.exponent + 1.0L);
+    };
+    const long double T = at.frame_s,
+                      before = static_cast<long double>(hammer.position_m) - at.displacement_m;
+    const long double slope =
+        before > 0 ? hammer.loss_s_per_m * hammer.stiffness * std::pow(before, hammer.exponent + 0.0L) / T
+                   : 0.0L;
+    const long double give = T * T / (2 * hammer.mass_kg) + at.give_m_per_N;
+    const long double free = before + T * hammer.speed_m_per_s - at.rise_m;
+    const auto force = [&](long double xi) {
+        const long double change = xi - before;
+        const long double elastic = change == 0 ? 0.0L : (V(xi) - V(before)) / change;
+        return std::max(0.0L, elastic + slope * change);
+    };
+    long double low = std::min(0.0L, std::min(free, before)) - std::sqrt(give * V(before));
+    long double high = free;
+    for (int i = 0; i < 200; ++i) {
+        const long double middle = (low + high) / 2;
+        (middle - free + give * force(middle) > 0 ? high : low) = middle;
+    }
+    return low;
+}
+
+TEST(Hammer, TheCompressionIsThatOfHalvings) {
+    std::mt19937_64 random(3);
+    const auto log_uniform = [&](double low, double high) {
+        return low * std::pow(high / low, static_cast<double>(random() >> 11) * 0x1p-53);
+    };
+    for (int trial = 0; trial < 2000; ++trial) {
+        ExciterState hammer;
+        hammer.phase = ExciterPhase::Hammer;
+        hammer.mass_kg = log_uniform(1e-4, 0.1);
+        hammer.exponent = log_uniform(1, 5);
+        const double scale_m = log_uniform(1e-6, 1e-2);
+        hammer.stiffness =
+            log_uniform(1e-3, 1e6) / std::pow(scale_m, hammer.exponent);  // N at that compression
+        hammer.loss_s_per_m = trial % 3 == 0 ? 0.0 : log_uniform(1e-3, 10);
+        hammer.position_m = (trial % 2 == 0 ? 1 : -1) * log_uniform(0.01, 1) * scale_m;
+        hammer.speed_m_per_s = (trial % 5 < 3 ? 1 : -1) * log_uniform(0.01, 10);
+        StringAtExciter at;
+        at.frame_s = 1.0 / 48000;
+        at.rise_m = (trial % 7 < 4 ? 1 : -1) * log_uniform(1e-3, 1) * scale_m;
+        at.give_m_per_N = log_uniform(1e-8, 1e-3);
+        const long double expected = compression_by_halving(hammer, at);
+        const double size = std::abs(hammer.position_m) + std::abs(at.frame_s * hammer.speed_m_per_s) +
+                            std::abs(at.rise_m) + std::abs(static_cast<double>(expected));
+        // Rounding of the compression times what the felt makes of it.
+        const double give = at.frame_s * at.frame_s / (2 * hammer.mass_kg) + at.give_m_per_N;
+        const double stiffness = hammer.stiffness * std::pow(size, hammer.exponent - 1) *
+                                 (hammer.exponent + hammer.loss_s_per_m * size / at.frame_s);
+        const double force = exciter_force(at, hammer);
+        const double after = hammer.position_m - (at.rise_m + at.give_m_per_N * force);
+        ASSERT_NEAR(after, static_cast<double>(expected), (1e-13 + 1e-15 * give * stiffness) * size) << trial;
+    }
+}
+
 /// Duhamel's integral with the end's acceleration: q_k = -g_k int b''(s) sin(omega (t - s))/omega ds.
 TEST(Tangent, MovesTheStringAsItsEndDemands) {
     const StringModel model = lossless_string(40);
