@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "instrument/play/chord_choice.h"
 #include "instrument/play/control_targets.h"
 #include "instrument/play/controls.h"
 #include "instrument/play/course_choice.h"
@@ -115,10 +116,12 @@ bool pull_off(const InstrumentModel& model, InstrumentState& state, std::size_t 
 
 // ---------------------------------------------------------------------------------------------- notes
 
-void note_on(const InstrumentModel& model, InstrumentState& state, const InstrumentEvent& event) {
+/// `chosen`: for the note as one of a chord, or no_course.
+void note_on(const InstrumentModel& model, InstrumentState& state, const InstrumentEvent& event,
+             std::size_t chosen) {
     const ChannelState& channel = channel_of(state, event.channel);
     bool legato = plays_legato(state, channel);
-    std::size_t course = no_course;
+    std::size_t course = chosen;
     if (legato && event.string < 0) course = course_to_continue(model, state, event.channel, event.key);
     if (course == no_course) course = choose_course(model, state, event);
     if (course == no_course) {
@@ -256,15 +259,20 @@ bool is_valid(const InstrumentEvent& event) {
            event.key >= (any_key ? -1 : 0) && event.key <= 127 && has_valid_value(event);
 }
 
-}  // namespace
+/// Note-ons that are matched with the others that begin with them: not those of legato, which go on where
+/// their channel's last note is.
+bool is_of_chord(const InstrumentState& state, const InstrumentEvent& event) {
+    return event.type == InstrumentEventType::NoteOn && event.value > 0 && is_valid(event) &&
+           !plays_legato(state, channel_of(state, event.channel));
+}
 
-void apply_event(const InstrumentModel& model, InstrumentState& state,
-                 const InstrumentEvent& event) JAWARI_REALTIME {
+void apply_event(const InstrumentModel& model, InstrumentState& state, const InstrumentEvent& event,
+                 std::size_t chosen = no_course) {
     if (!is_valid(event)) return;
     switch (event.type) {
         case InstrumentEventType::NoteOn:
             if (event.value > 0) {
-                note_on(model, state, event);
+                note_on(model, state, event, chosen);
             } else {
                 note_off(model, state, event, neutral_release_velocity);
             }
@@ -299,6 +307,23 @@ void apply_event(const InstrumentModel& model, InstrumentState& state,
         case InstrumentEventType::SetParameter:
             set_parameter(state, event);
             break;
+    }
+}
+
+}  // namespace
+
+void apply_events(const InstrumentModel& model, InstrumentState& state,
+                  std::span<const InstrumentEvent> events) JAWARI_REALTIME {
+    for (std::size_t i = 0; i < events.size();) {
+        std::size_t end = i;
+        while (end < events.size() && end - i < largest_chord && is_of_chord(state, events[end])) ++end;
+        if (end - i < 2) {
+            apply_event(model, state, events[i++]);
+            continue;
+        }
+        ChordCourses chosen;
+        choose_chord(model, state, events.subspan(i, end - i), chosen);
+        for (std::size_t note = 0; i < end; ++i, ++note) apply_event(model, state, events[i], chosen[note]);
     }
 }
 

@@ -101,7 +101,10 @@ void render_frames(const InstrumentModel& model, InstrumentState& state,
     Run run;
     for (std::size_t n = 0; n < frames; n += run.frames) {
         start_pending_strokes(model, state);
-        while (next < events.size() && events[next].frame <= n) apply_event(model, state, events[next++]);
+        std::size_t due = next;
+        while (due < events.size() && events[due].frame <= n) ++due;
+        apply_events(model, state, events.subspan(next, due - next));
+        next = due;
         if (state.busy && state.frame % control_frames == 0) follow_controls(model, state);
         const std::size_t end = next < events.size() ? std::min(frames, events[next].frame) : frames;
         run.frames = run_length(state, end - n);
@@ -109,7 +112,7 @@ void render_frames(const InstrumentModel& model, InstrumentState& state,
         for (std::size_t i = 0; i < run.frames; ++i) sink(n + i, run.left[i], run.right[i]);
     }
     if (next < events.size()) start_pending_strokes(model, state);
-    while (next < events.size()) apply_event(model, state, events[next++]);
+    apply_events(model, state, events.subspan(next));
 }
 
 }  // namespace
