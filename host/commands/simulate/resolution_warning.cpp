@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "base/text.h"
+#include "jawari/scene/energy.h"
 #include "jawari/scene/modes.h"
 #include "jawari/scene/resolution.h"
 
@@ -24,6 +25,10 @@ constexpr double good_error = 0.01;
 /// them stay far below the estimate, which was measured on a string with modes up to 75 times that limit and
 /// more.
 constexpr double many_modes_above = 64;
+/// A start whose discrete energy is this many times the true one says nothing; a step that lets no mode decay
+/// by more than exp(-1/2) keeps it below twice the true one.
+constexpr double bad_start_energy = 10;
+constexpr double good_decay = 0.5;
 
 struct Finding {
     double rate_hz = 0;  ///< that would do
@@ -41,7 +46,7 @@ std::string percent(double share) {
 /// Laws of velocities let a string enter an obstacle by what it moves in a step.
 std::optional<Finding> judge_penetration(const SceneDescription& settings, const StringResolution& string) {
     const double share = string.penetration_m / string.motion_m;
-    if (!(share > bad_penetration)) return std::nullopt;
+    if (string.impulses == 0 || !(share > bad_penetration)) return std::nullopt;
     return Finding{settings.contact_rate_hz * share / good_penetration,
                    "entered an obstacle by " + formatted("%.2g m, ", string.penetration_m) + percent(share) +
                        " of its motion"};
@@ -49,12 +54,23 @@ std::optional<Finding> judge_penetration(const SceneDescription& settings, const
 
 /// Laws of positions let it enter nothing, so that the error has to be estimated.
 std::optional<Finding> judge_estimate(const SceneDescription& settings, const StringResolution& string) {
-    if (!forbids_penetration(settings)) return std::nullopt;
+    if (string.impulses == 0 || !forbids_penetration(settings)) return std::nullopt;
     const double error = contact_error(string.fundamental_hz, settings.contact_rate_hz);
     const bool many = string.highest_hz > many_modes_above * settings.contact_rate_hz / 2;
     if (!(error > bad_error) || !many) return std::nullopt;
     return Finding{settings.contact_rate_hz * error / good_error,
                    "has an estimated error of " + percent(std::min(error, 1.0))};
+}
+
+/// What a mode that decays within a step was one step before the start is huge, and H counts it.
+std::optional<Finding> judge_start(const SceneDescription& settings, const StringResolution& string) {
+    if (settings.scheme != Scheme::Exact || !(string.energy_J > bad_start_energy * string.true_energy_J))
+        return std::nullopt;
+    return Finding{
+        string.fastest_decay_per_s / good_decay,
+        "starts with " + formatted("%.2g J", string.energy_J) + " of discrete energy, " +
+            formatted("%.2g J", string.true_energy_J) + " is right, as its fastest mode decays by " +
+            formatted("exp(-%.3g)", string.fastest_decay_per_s / settings.contact_rate_hz) + " in a step"};
 }
 
 /// A whole multiple of the output rate, as high as compile() allows at most.
@@ -71,12 +87,19 @@ StringResolution describe_resolution(const StringDescription& string, const Stri
     const Modes modes = modes_of(string);
     const auto* given = std::get_if<ModalState>(&string.initial.shape);
     double square = 0;
+    double energy_over_mass = 0;
+    double fastest_decay_per_s = 0;
     for (std::size_t k = 0; k < modes.omega.size(); ++k) {
         const double q = start.displacement[k];
         const double v = given != nullptr && !given->velocity.empty() ? given->velocity[k] : 0.0;
         square += q * q + v / modes.omega[k] * (v / modes.omega[k]);
+        energy_over_mass += (v * v + modes.omega[k] * q * (modes.omega[k] * q)) / 2;
+        if (q != 0 || v != 0) fastest_decay_per_s = std::max(fastest_decay_per_s, modes.sigma[k]);
     }
     StringResolution resolution;
+    resolution.energy_J = energy(model, start);
+    resolution.true_energy_J = string.linear_density_kg_per_m * energy_over_mass;
+    resolution.fastest_decay_per_s = fastest_decay_per_s;
     resolution.name = model.shape->name;
     resolution.motion_m = std::sqrt(2 / string.length_m * square);
     resolution.fundamental_hz = modes.omega.front() / (2 * std::numbers::pi);
@@ -89,8 +112,8 @@ std::optional<std::string> resolution_warning(const std::string& subject, const 
                                               const std::vector<StringResolution>& strings) {
     Finding worst;
     for (const StringResolution& string : strings) {
-        if (string.impulses == 0 || !(string.motion_m > 0)) continue;
-        for (const auto& judge : {judge_penetration, judge_estimate}) {
+        if (!(string.motion_m > 0)) continue;
+        for (const auto& judge : {judge_start, judge_penetration, judge_estimate}) {
             const auto finding = judge(settings, string);
             if (!finding || finding->rate_hz <= worst.rate_hz) continue;
             worst = {finding->rate_hz, "string " + in_quotes(string.name) + " " + finding->text};

@@ -20,7 +20,10 @@ struct StringResolution {
     double fundamental_hz = 0;
     double highest_hz = 0;  ///< of its modes
     std::uint64_t impulses = 0;
-    double penetration_m = 0;  ///< the deepest
+    double penetration_m = 0;        ///< the deepest
+    double energy_J = 0;             ///< discrete, at t = 0
+    double true_energy_J = 0;        ///< of the motion that the description gives
+    double fastest_decay_per_s = 0;  ///< sigma, of the modes that move at t = 0
 };
 
 /// All but impulses and penetration. `start`: the state at t = 0. The motion's size is the amplitude that a

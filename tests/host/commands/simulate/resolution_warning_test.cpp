@@ -8,6 +8,7 @@
 
 #include "formats/scene/read_scene.h"
 #include "jawari/scene/compile.h"
+#include "jawari/scene/modes.h"
 #include "jawari/scene/resolution.h"
 #include "support/scene_text.h"
 
@@ -94,6 +95,36 @@ TEST(ResolutionWarning, TheSizeOfAPluckIsThatOfAModeOfItsMeanSquare) {
     const StringResolution string = described(test::valid_scene);
     EXPECT_NEAR(string.motion_m, 0.002 * std::sqrt(2.0 / 3), 2e-6);
     EXPECT_NEAR(string.fundamental_hz, std::sqrt(100 / 0.005) / 1.6, 1e-2);
+}
+
+/// A mode that decays by exp(-sigma h) in a step was exp(sigma h) times as large a step before.
+TEST(ResolutionWarning, AStartWhoseFastModesDecayWithinAStepIsTold) {
+    std::string text = test::valid_scene;
+    SceneDescription scene = read_scene(text, "f").value().description;
+    const Modes modes = modes_of(scene.strings[0]);
+    ModeTable table;
+    for (std::size_t k = 0; k < modes.omega.size(); ++k) {
+        table.frequency_hz.push_back(modes.omega[k] / (2 * std::numbers::pi));
+        table.decay_per_s.push_back(k == 2 ? 1e6 : 1.0);
+    }
+    scene.strings[0].modes = table;
+    scene.scheme = Scheme::Exact;
+    for (const double rate_hz : {48000.0, 2016000.0}) {
+        scene.output_rate_hz = 48000;
+        scene.contact_rate_hz = rate_hz;
+        const SceneModel model = compile(scene).value();
+        const SceneState state = make_state(model, Metering::Off);
+        const auto string = describe_resolution(scene.strings[0], model.strings[0], state.strings[0]);
+        EXPECT_EQ(string.fastest_decay_per_s, 1e6);
+        const auto line = resolution_warning("f", scene, {string});
+        EXPECT_EQ(line.has_value(), rate_hz < 1e6) << rate_hz << " " << string.energy_J;
+        if (line) {
+            EXPECT_TRUE(line->ends_with("; 2016000 Hz would do")) << *line;
+        }
+        if (rate_hz > 1e6) {
+            EXPECT_NEAR(string.energy_J, string.true_energy_J, 0.1 * string.true_energy_J);
+        }
+    }
 }
 
 /// One mode at its rest position with the velocity v has the amplitude sqrt(2/L) v/omega.
