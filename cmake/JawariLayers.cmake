@@ -12,7 +12,8 @@ function(jawari_keep_apart)
 endfunction()
 
 # jawari_layer(NAME OBJECT|STATIC FOLDER SOURCES file... [USES target...] [NEEDS target...]): the sources of one folder as a
-# library. USES are the layers below it, which who uses the layer uses too; NEEDS are libraries of its own.
+# library. USES are the layers below it, which who uses the layer uses too; NEEDS are libraries of its own. The precompiled headers are
+# those of the target that JAWARI_LAYER_HEADERS names, if any.
 function(jawari_layer name kind folder)
   cmake_parse_arguments(PARSE_ARGV 3 ARG "" "" "SOURCES;USES;NEEDS")
   list(TRANSFORM ARG_SOURCES PREPEND ${folder}/)
@@ -24,6 +25,12 @@ function(jawari_layer name kind folder)
     add_library(${name} ${kind} ${ARG_SOURCES})
     jawari_keep_apart(${ARG_SOURCES})
     target_link_libraries(${name} PUBLIC ${ARG_USES} PRIVATE ${ARG_NEEDS} jawari_options)
+    if(JAWARI_LAYER_HEADERS AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
+      target_precompile_headers(${name} REUSE_FROM ${JAWARI_LAYER_HEADERS})
+      # GCC 12 takes `"text" + std::string` for a copy out of bounds, and says so of precompiled system headers too (GCC bug 105651).
+      target_compile_options(${name} PRIVATE
+        $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-stringop-overflow$<SEMICOLON>-Wno-array-bounds>)
+    endif()
     if(TARGET jawari_layers)
       add_dependencies(${name} jawari_layers)
     endif()
