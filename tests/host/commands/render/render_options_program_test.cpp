@@ -118,6 +118,26 @@ TEST(RenderOptions, OfSeveralFilesTheGoodOnesAreRendered) {
     EXPECT_FALSE(std::filesystem::exists(folder.file("out/bad.wav")));
 }
 
+TEST(RenderOptions, PortamentoControlSlidesOnTheString) {
+    const auto sound = [](const std::vector<Bytes>& between) {
+        Bytes track;
+        append_event(track, 0, {0xB0, 5, 64});
+        append_event(track, 0, {0x90, 40, 90});
+        for (const Bytes& message : between) append_event(track, 0, message);
+        append_event(track, 300, {0x90, 43, 90});
+        append_event(track, 900, {0x80, 43, 64});
+        append_event(track, 0, {0x80, 40, 64});
+        append_event(track, 0, end_of_track);
+        return as_text(file_with_track(track, 500));
+    };
+    const TemporaryFolder folder;
+    EXPECT_EQ(render(folder, sound({{0xB0, 84, 40}}), bass).stats["legato_notes"], 1);
+    EXPECT_EQ(render(folder, sound({}), bass).stats["legato_notes"], 0);
+    const auto none = render(folder, sound({{0xB0, 84, 41}}), bass);
+    EXPECT_EQ(none.stats["legato_notes"], 0);
+    EXPECT_EQ(none.stats["ignored"][0]["what"], "controller 84 (portamento from)");
+}
+
 TEST(RenderOptions, TheLimiterKeepsItsCeilingAndSaysSo) {
     const TemporaryFolder folder;
     const auto loud = render(folder, notes({28, 33, 38}), with_bass({"--gain", "20", "--limiter", "-3"}));
