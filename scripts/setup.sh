@@ -53,7 +53,7 @@ full         libclang-rt-CLANG-dev|libclang-common-CLANG-dev libFuzzer and sanit
 full         valgrind                instruction counts
 full?        g++-aarch64-linux-gnu   cross compiler: scripts/check_neon.sh cannot run
 full?        doxygen                 reference of the public headers: docs.doxygen is skipped
-full?        openttd-openmsx         music that nobody here wrote: scripts/real_midi.py cannot run
+full?        openttd-openmsx         music that nobody here wrote: scripts/real_midi.py needs --download
 bench        valgrind                instruction counts
 bench        python3-matplotlib      plots of docs/benchmarks.md
 bench?       csound                  peer (plucked strings, prepared piano): scripts/bench.sh peers cannot run
