@@ -235,7 +235,7 @@ TEST(RenderOptions, EveryFailureIsOneLineAndLeavesNothing) {
         {{"--mute", "17"}, 2, "--mute: 17 (allowed: a whole number, 1 to 16"},
         {{"--tempo", "0"}, 2, "--tempo: 0 (allowed: 10 to 1000"},
         {{"--plot", folder.file("p.pdf")}, 2, "p.pdf (allowed: a name that ends in .svg or .png)"},
-        {{good}, 2, "--out"}};
+        {{good, "--stats", folder.file("s.json")}, 2, "s.json (allowed: only with one MIDI file)"}};
     for (const Refusal& refusal : refusals) {
         std::vector<std::string> arguments{"render",       good, "--preset",
                                            "bass-fretted", "-o", folder.file("o.wav")};
