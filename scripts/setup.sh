@@ -32,7 +32,7 @@ program      gnuplot-nox             --plot
 program      fonts-dejavu-core       labels of plots
 program      librtaudio-dev          play: audio devices
 program      librtmidi-dev           play: MIDI devices
-program      libjack-jackd2-dev      the JACK that the two are used with here (they would take the older one)
+program      libjack-jackd2-dev      the JACK that the two are used with here (they would take the older one); play: connections that are cut
 program      libedit-dev             play: shell
 program      liblo-dev               play: Open Sound Control
 program      python3                 names of the demo pieces
