@@ -16,9 +16,9 @@ struct CutConnection {
 
 class ConnectionWatch {
   public:
-    /// `client`: how the names of our inputs begin. Null where nobody tells: systems other than JACK, no
+    /// `name`: how the names of our inputs begin. Null where nobody tells: systems other than JACK, no
     /// server, or built without JACK.
-    static std::unique_ptr<ConnectionWatch> create(const std::string& system, const std::string& client);
+    static std::unique_ptr<ConnectionWatch> create(const std::string& system, const std::string& name);
 
     ConnectionWatch(const ConnectionWatch&) = delete;
     ConnectionWatch& operator=(const ConnectionWatch&) = delete;
