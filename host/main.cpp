@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "base/interrupt.h"
+#include "base/suggestion.h"
+#include "base/text.h"
 #include "cli/command.h"
 #include "commands/bench_latency/latency_command.h"
 #include "commands/info/info_command.h"
@@ -33,18 +37,40 @@ constexpr const char* footer =
     "5 internal error; 6 audio or MIDI device; 7 warnings with --strict; 129 hung up; 130 interrupted;\n"
     "143 terminated. Every failure prints one line on standard error.";
 
+/// A word that no option or command has; nothing if all words are known.
+std::optional<std::string> unknown_word(const CLI::App& app, const std::vector<std::string>& words) {
+    const auto parsed = app.get_subcommands();
+    const CLI::App& command = parsed.empty() ? app : *parsed.front();
+    std::vector<std::string> options, commands;
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+    for (const CLI::App* each : app.get_subcommands([](const CLI::App*) { return true; }))
+        commands.push_back(each->get_name());
+    for (const std::string& word : words) {
+        const std::string name = word.substr(0, word.find('='));
+        if (name.starts_with("-")) return name + ": unknown option" + did_you_mean(name, options);
+        if (parsed.empty())
+            return name + ": unknown command" + did_you_mean(name, commands) +
+                   " (allowed: " + join(commands) + ")";
+    }
+    return std::nullopt;
+}
+
+/// A misspelt option is the reason, whatever is missing because of it.
 MaybeError usage(const CLI::App& app, const CLI::ParseError& problem) {
-    std::string message = problem.what();
+    const auto unknown = unknown_word(app, app.remaining(true));
+    std::string message = unknown ? *unknown : problem.what();
     std::replace(message.begin(), message.end(), '\n', ' ');
     const auto parsed = app.get_subcommands();
     const std::string subcommand = parsed.empty() ? "" : parsed.front()->get_name() + " ";
-    return Error{ErrorKind::Usage, message + "; see jawari " + subcommand + "--help"};
+    const char* see = message.ends_with('?') ? " See" : "; see";
+    return Error{ErrorKind::Usage, message + see + " jawari " + subcommand + "--help"};
 }
 
 MaybeError run(int argc, char** argv, int& help_exit_code) {
     CLI::App app{"Strings that strike things: simulates strings against frets, necks and bridges.", "jawari"};
     app.footer(footer);
-    app.set_version_flag("--version", "jawari " JAWARI_VERSION);
+    app.set_version_flag("-V,--version", "jawari " JAWARI_VERSION);
     app.require_subcommand(1);
     Command command;
     add_simulate_command(app, command);

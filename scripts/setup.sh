@@ -32,7 +32,7 @@ program      gnuplot-nox             --plot
 program      fonts-dejavu-core       labels of plots
 program      librtaudio-dev          play: audio devices
 program      librtmidi-dev           play: MIDI devices
-program      libjack-jackd2-dev      the JACK that the two are used with here (they would take the older one)
+program      libjack-jackd2-dev      the JACK that the two are used with here (they would take the older one); play: connections that are cut
 program      libedit-dev             play: shell
 program      liblo-dev               play: Open Sound Control
 program      python3                 names of the demo pieces
@@ -53,7 +53,7 @@ full         libclang-rt-CLANG-dev|libclang-common-CLANG-dev libFuzzer and sanit
 full         valgrind                instruction counts
 full?        g++-aarch64-linux-gnu   cross compiler: scripts/check_neon.sh cannot run
 full?        doxygen                 reference of the public headers: docs.doxygen is skipped
-full?        openttd-openmsx         music that nobody here wrote: scripts/real_midi.py cannot run
+full?        openttd-openmsx         music that nobody here wrote: scripts/real_midi.py needs --download
 bench        valgrind                instruction counts
 bench        python3-matplotlib      plots of docs/benchmarks.md
 bench?       csound                  peer (plucked strings, prepared piano): scripts/bench.sh peers cannot run

@@ -34,6 +34,24 @@ std::optional<double> parse_number(std::string_view text) {
     return value;
 }
 
+std::optional<double> parse_time(std::string_view text) {
+    constexpr double per_unit = 60;
+    constexpr int most_colons = 2;
+    double seconds = 0;
+    for (int colons = 0; colons <= most_colons; ++colons) {
+        const std::size_t colon = text.find(':');
+        const auto part = parse_number(text.substr(0, colon));
+        const bool last = colon == std::string_view::npos;
+        if (!part || !std::isfinite(*part) || std::signbit(*part)) return std::nullopt;
+        if (!last && *part != std::floor(*part)) return std::nullopt;
+        if (colons > 0 && *part >= per_unit) return std::nullopt;
+        seconds = seconds * per_unit + *part;
+        if (last) return seconds;
+        text.remove_prefix(colon + 1);
+    }
+    return std::nullopt;
+}
+
 std::string printable(std::string_view text) {
     std::string result;
     result.reserve(text.size());

@@ -21,6 +21,10 @@ std::string seventeen_digits(double value);
 /// A number spelled out completely (`12`, `-0.5`, `1e-3`, `inf`, `nan`), surrounding spaces not accepted.
 std::optional<double> parse_number(std::string_view text);
 
+/// A length of time [s], 0 or more: seconds (`90.5`), minutes and seconds (`1:30.5`) or hours too
+/// (`1:02:03`). Behind a colon seconds and minutes are below 60.
+std::optional<double> parse_time(std::string_view text);
+
 /// Control characters as \xNN, so that foreign text never breaks a line or drives a terminal.
 std::string printable(std::string_view text);
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/suggestion.h"
 #include "base/text.h"
 #include "formats/words/parameter_words.h"
 
@@ -50,7 +51,9 @@ inline CLI::Validator parameter_setting() {
     const auto check = [](const std::string& text) {
         const std::size_t equals = text.find('=');
         const ParameterDeclaration* parameter = find_parameter(text.substr(0, equals));
-        if (parameter == nullptr) return refusal(text, "PARAMETER=VALUE, one of " + join(parameter_keys()));
+        if (parameter == nullptr)
+            return refusal(text + did_you_mean(text.substr(0, equals), parameter_keys()),
+                           "PARAMETER=VALUE, one of " + join(parameter_keys()));
         const auto value = equals == std::string::npos ? std::nullopt : parse_number(text.substr(equals + 1));
         if (value && *value >= parameter->low && *value <= parameter->high) return std::string();
         return refusal(text, std::string(parameter->key) + "=" + parameter_range(*parameter));
@@ -84,7 +87,8 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, std::optional<T>
     CLI::Option* option = app.add_option_function<std::string>(
         name, [&target, &words](const std::string& word) { target = words.at(word); }, help);
     const auto check = [&words, allowed](const std::string& word) {
-        return words.count(word) > 0 ? std::string() : refusal(word, join(allowed));
+        return words.count(word) > 0 ? std::string()
+                                     : refusal(word + did_you_mean(word, allowed), join(allowed));
     };
     return option->type_name(join(allowed, "|"))->check(CLI::Validator(check, ""));
 }

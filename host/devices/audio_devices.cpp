@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "base/suggestion.h"
 #include "base/text.h"
 #include "devices/quiet.h"
 #include "devices/rtaudio_versions.h"
@@ -83,7 +84,8 @@ Outcome<std::size_t> match_name(const std::vector<std::string>& names, const std
     if (parts.size() == 1) return parts.front();
     const std::string problem =
         parts.empty() ? "no " + what + " has that number or name" : "more than one " + what;
-    return Error{ErrorKind::Device, in_quotes(wanted) + ": " + problem + " (" + numbered(names) + ")"};
+    const std::string hint = parts.empty() ? did_you_mean(wanted, names) : "";
+    return Error{ErrorKind::Device, in_quotes(wanted) + ": " + problem + hint + " (" + numbered(names) + ")"};
 }
 
 unsigned int choose_rate(const AudioDevice& device, unsigned int wanted_hz) {

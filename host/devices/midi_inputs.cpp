@@ -18,7 +18,7 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
 /// Loops that ALSA always has, and our own ports: connecting to them plays nothing or everything twice.
 bool is_no_keyboard(const std::string& name) {
     const std::string lower = lower_case(name);
-    return lower.find("midi through") != std::string::npos || lower.starts_with("jawari-midi");
+    return lower.find("midi through") != std::string::npos || lower.starts_with(midi_client_name);
 }
 
 }  // namespace
@@ -65,6 +65,7 @@ MaybeError MidiInputs::start() {
         if (!index) return Error{index.error().kind, "midi: " + system_ + ": " + index.error().message};
         input_ = lasting_name(names[index.value()]);
     }
+    connections_ = ConnectionWatch::create(system_, midi_client_name);
     connect_virtual();
     connect_new(names);
     return std::nullopt;
@@ -95,9 +96,11 @@ void MidiInputs::connect_virtual() {
     if (!wants_virtual() || virtual_) return;
     MidiPort* port = take_port();
     if (port == nullptr) return;
+    if (connections_) connections_->note_inputs();
     auto receiver = MidiReceiver::make_virtual(system_, *port);
     if (receiver) {
         virtual_ = std::move(receiver.value());
+        name_own_port(*virtual_);
         report_("midi: " + system_ + ": " + virtual_->name());
     } else {
         spare_ports_.push_back(port);
@@ -116,9 +119,11 @@ void MidiInputs::connect_new(const std::vector<std::string>& names) {
             report_("warning: midi: " + in_quotes(name) + " is left out: too many inputs");
             continue;
         }
+        if (connections_) connections_->note_inputs();
         auto receiver = MidiReceiver::connect(system_, index, name, *port);
         if (receiver) {
             receivers_.push_back(std::move(receiver.value()));
+            name_own_port(*receivers_.back());
             report_("midi: " + system_ + ": connected to " + in_quotes(name));
         } else {
             spare_ports_.push_back(port);
@@ -134,6 +139,7 @@ void MidiInputs::drop_vanished(const std::vector<std::string>& names) {
         if (!vanished(receiver)) continue;
         report_("warning: midi: " + in_quotes(receiver->name()) + " is gone; its notes are released");
         spare_ports_.push_back(&receiver->port());
+        keep_ignored(*receiver);
         receiver.reset();
     }
     std::erase(receivers_, nullptr);
@@ -155,6 +161,49 @@ void MidiInputs::watch(std::int64_t now_ns) {
     };
     for (const auto& receiver : receivers_) look(*receiver);
     if (virtual_) look(*virtual_);
+    watch_connections();
+}
+
+void MidiInputs::keep_ignored(MidiReceiver& receiver) {
+    for (const auto& [name, count] : receiver.ignored_exclusives()) ignored_[name] += count;
+}
+
+std::map<std::string, std::uint64_t> MidiInputs::ignored_exclusives() const {
+    std::map<std::string, std::uint64_t> all = ignored_;
+    const auto add = [&all](MidiReceiver& receiver) {
+        for (const auto& [name, count] : receiver.ignored_exclusives()) all[name] += count;
+    };
+    for (const auto& receiver : receivers_) add(*receiver);
+    if (virtual_) add(*virtual_);
+    return all;
+}
+
+void MidiInputs::name_own_port(MidiReceiver& receiver) {
+    if (connections_) receiver.set_own_port(connections_->new_input().value_or(""));
+}
+
+MidiReceiver* MidiInputs::receiver_of(const std::string& own_port) const {
+    const auto is_it = [&](const auto& receiver) { return receiver && receiver->own_port() == own_port; };
+    if (is_it(virtual_)) return virtual_.get();
+    const auto found = std::find_if(receivers_.begin(), receivers_.end(), is_it);
+    return found == receivers_.end() ? nullptr : found->get();
+}
+
+void MidiInputs::watch_connections() {
+    if (!connections_) return;
+    for (const CutConnection& cut : connections_->take_cuts()) {
+        MidiReceiver* receiver = receiver_of(cut.input);
+        if (receiver == nullptr) continue;  // of other programs
+        if (receiver != virtual_.get()) {
+            poll();  // a sender that is gone altogether is dropped, and that is said
+            receiver = receiver_of(cut.input);
+            if (receiver == nullptr) continue;
+        }
+        receiver->release();
+        const std::string sender = cut.sender.empty() ? "a program that is gone" : in_quotes(cut.sender);
+        report_("warning: midi: the connection of " + sender + " to " + cut.input +
+                " was cut; its notes are released");
+    }
 }
 
 void MidiInputs::restart() {
@@ -162,15 +211,21 @@ void MidiInputs::restart() {
     auto lister = MidiLister::create(system_);
     if (!lister) return;
     lister_ = std::move(lister.value());
+    connections_ = ConnectionWatch::create(system_, midi_client_name);
     connect_virtual();
     connect_new(lister_->names());
 }
 
 void MidiInputs::stop() {
-    for (auto& receiver : receivers_) spare_ports_.push_back(&receiver->port());
+    const auto leave = [this](MidiReceiver& receiver) {
+        spare_ports_.push_back(&receiver.port());
+        keep_ignored(receiver);
+    };
+    for (const auto& receiver : receivers_) leave(*receiver);
     receivers_.clear();
-    if (virtual_) spare_ports_.push_back(&virtual_->port());
+    if (virtual_) leave(*virtual_);
     virtual_.reset();
+    connections_.reset();
     lister_.reset();
     refused_.clear();
 }

@@ -4,11 +4,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "devices/connection_watch.h"
 #include "devices/midi_receiver.h"
 
 namespace jawari::host {
@@ -41,7 +43,8 @@ class MidiInputs {
     /// Looks for what came and went; to be called about once a second.
     void poll();
 
-    /// Lets go of what senders hold whose active sensing has stopped; to be called every few milliseconds.
+    /// Lets go of what senders hold whose active sensing has stopped or whose connection was cut; to be
+    /// called every few milliseconds.
     void watch(std::int64_t now_ns);
 
     /// After the server of the system was lost: everything anew, without an error.
@@ -49,6 +52,9 @@ class MidiInputs {
 
     /// Ends all receivers.
     void stop();
+
+    /// System exclusive messages that came and mean nothing here, by name.
+    [[nodiscard]] std::map<std::string, std::uint64_t> ignored_exclusives() const;
 
     [[nodiscard]] const std::string& system() const { return system_; }
     [[nodiscard]] std::size_t connected() const { return receivers_.size(); }
@@ -60,6 +66,11 @@ class MidiInputs {
     void drop_vanished(const std::vector<std::string>& names);
     void connect_new(const std::vector<std::string>& names);
     void connect_virtual();
+    void watch_connections();
+    /// A receiver that was just made: by what name its port is heard of.
+    void name_own_port(MidiReceiver& receiver);
+    [[nodiscard]] MidiReceiver* receiver_of(const std::string& own_port) const;
+    void keep_ignored(MidiReceiver& receiver);
     MidiPort* take_port();
 
     MidiWish wish_;
@@ -68,10 +79,12 @@ class MidiInputs {
     std::string system_;
     std::string input_;  ///< the named input that was found at the start, for when it comes back
     std::unique_ptr<MidiLister> lister_;
+    std::unique_ptr<ConnectionWatch> connections_;  ///< null where nobody tells
     std::vector<std::unique_ptr<MidiReceiver>> receivers_;
     std::unique_ptr<MidiReceiver> virtual_;
     std::vector<MidiPort*> spare_ports_;
-    std::vector<std::string> refused_;  ///< reported once
+    std::map<std::string, std::uint64_t> ignored_;  ///< of receivers that are gone
+    std::vector<std::string> refused_;              ///< reported once
 };
 
 }  // namespace jawari::host

@@ -16,7 +16,6 @@ namespace jawari::host {
 
 namespace {
 
-constexpr const char* client_name = "jawari-midi";
 /// Has no ports; named apart so that the ports' client has its name without a number.
 constexpr const char* lister_name = "jawari-list";
 constexpr const char* virtual_port_name = "in";
@@ -69,13 +68,15 @@ std::optional<ChannelMessage> channel_message(std::span<const unsigned char> byt
     return ChannelMessage{bytes[0], bytes[1], count == 2 ? bytes[2] : std::uint8_t{0}};
 }
 
-std::vector<ChannelMessage> system_messages(std::span<const unsigned char> bytes) {
+std::optional<DecodedExclusive> system_messages(std::span<const unsigned char> bytes) {
     constexpr unsigned char exclusive = 0xF0, end_of_exclusive = 0xF7, system_reset = 0xFF;
     if (bytes.size() == 1 && bytes[0] == system_reset)
-        return {
-            {static_cast<std::uint8_t>(SystemKind::Reset), static_cast<std::uint8_t>(SoundMode::Plain), 0}};
-    if (bytes.size() < 2 || bytes.front() != exclusive || bytes.back() != end_of_exclusive) return {};
-    return decode_exclusive(bytes.subspan(1, bytes.size() - 2)).messages;
+        return DecodedExclusive{
+            {{static_cast<std::uint8_t>(SystemKind::Reset), static_cast<std::uint8_t>(SoundMode::Plain), 0}},
+            "system reset"};
+    if (bytes.size() < 2 || bytes.front() != exclusive || bytes.back() != end_of_exclusive)
+        return std::nullopt;
+    return decode_exclusive(bytes.subspan(1, bytes.size() - 2));
 }
 
 // ------------------------------------------------------------------------------------------------ the list
@@ -115,7 +116,7 @@ std::vector<std::string> MidiLister::names() {
 Outcome<std::unique_ptr<MidiReceiver>> MidiReceiver::create(const std::string& system,
                                                             const std::string& name, MidiPort& port) {
     std::unique_ptr<MidiReceiver> receiver(new MidiReceiver(name, port));
-    receiver->midi_ = make_client(system, client_name);
+    receiver->midi_ = make_client(system, midi_client_name);
     receiver->midi_->setCallback(&receive, receiver.get());
     return receiver;
 }
@@ -141,7 +142,7 @@ Outcome<std::unique_ptr<MidiReceiver>> MidiReceiver::make_virtual(const std::str
     const QuietStandardError quiet;
     try {
         auto receiver =
-            create(system, std::string("virtual port ") + client_name + ":" + virtual_port_name, port);
+            create(system, std::string("virtual port ") + midi_client_name + ":" + virtual_port_name, port);
         receiver.value()->midi_->openVirtualPort(virtual_port_name);
         if (!has_server(quiet)) return Error{ErrorKind::Device, "no server"};
         return receiver;
@@ -169,10 +170,28 @@ void MidiReceiver::receive(double /*delta_s*/, std::vector<unsigned char>* bytes
         follow(receiver.held_, *message);
         receiver.port_->push({*message, now_ns});
     }
-    for (const ChannelMessage& message : system_messages(*bytes)) {
-        if (static_cast<SystemKind>(message.status) == SystemKind::Reset) receiver.held_ = {};
-        receiver.port_->push({message, now_ns});
+    receiver.take_system(*bytes, now_ns);
+}
+
+/// The caller holds the mutex.
+void MidiReceiver::take_system(std::span<const unsigned char> bytes, std::int64_t now_ns) {
+    const auto decoded = system_messages(bytes);
+    if (!decoded) return;
+    if (decoded->messages.empty()) ignored_[decoded->name] += 1;
+    for (const ChannelMessage& message : decoded->messages) {
+        if (static_cast<SystemKind>(message.status) == SystemKind::Reset) held_ = {};
+        port_->push({message, now_ns});
     }
+}
+
+std::map<std::string, std::uint64_t> MidiReceiver::ignored_exclusives() {
+    const std::lock_guard lock(mutex_);
+    return ignored_;
+}
+
+void MidiReceiver::release() {
+    const std::lock_guard lock(mutex_);
+    for (const ChannelMessage& message : release_all(held_)) port_->push({message, 0});
 }
 
 bool MidiReceiver::release_if_silent(std::int64_t now_ns) {

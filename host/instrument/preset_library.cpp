@@ -9,6 +9,7 @@
 #include "base/builtin.h"
 #include "base/input_file.h"
 #include "base/platform.h"
+#include "base/suggestion.h"
 #include "base/text.h"
 
 namespace jawari::host {
@@ -93,9 +94,8 @@ Outcome<Preset> load_preset(const std::string& argument) {
     }
     std::vector<std::string> names;
     for (const NamedPreset& preset : named_presets()) names.push_back(preset.name);
-    return Error{
-        ErrorKind::File,
-        printable(argument) + ": no such file, and no preset of that name (presets: " + join(names) + ")"};
+    return Error{ErrorKind::File, printable(argument) + ": no such file, and no preset of that name" +
+                                      did_you_mean(argument, names) + " (presets: " + join(names) + ")"};
 }
 
 bool preset_exists(const std::string& name) {

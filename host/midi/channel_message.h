@@ -31,6 +31,11 @@ constexpr int channel_of(const ChannelMessage& message) {
     return message.status & 0x0F;
 }
 
+/// Controllers that carry data of an RPN or NRPN: entry, coarse and fine; increment, decrement.
+constexpr bool is_data_entry(int controller) {
+    return controller == 6 || controller == 38 || controller == 96 || controller == 97;
+}
+
 /// Data bytes that follow a status byte of this kind.
 constexpr int data_bytes(std::uint8_t status) {
     const unsigned kind = status & 0xF0U;

@@ -19,6 +19,8 @@ constexpr std::array<std::pair<int, std::string_view>, 31> controllers{
      {84, "portamento from"}, {91, "reverb"},        {92, "tremolo"},       {93, "chorus"},
      {94, "detune"},          {95, "phaser"},        {7, "volume"}}};
 
+}  // namespace
+
 std::string controller_kind(int controller) {
     std::string_view name;
     for (const auto& [number, known] : controllers)
@@ -28,6 +30,8 @@ std::string controller_kind(int controller) {
     if (!name.empty()) text.append(" (").append(name).append(")");
     return text;
 }
+
+namespace {
 
 std::string data_kind(const MidiChannel& channel) {
     const std::string number = std::to_string(channel.number_msb) + "/" + std::to_string(channel.number_lsb);
@@ -40,8 +44,8 @@ std::string ignored_kind(const MidiInterpreter& interpreter, const ChannelMessag
     if (kind_of(message) == MessageKind::NoteOn) return "notes moved beyond the keys 0 to 127";
     if (kind_of(message) != MessageKind::ControlChange) return "messages";
     const int controller = message.data1;
-    const bool data = controller == 6 || controller == 38 || controller == 96 || controller == 97;
-    if (data) return data_kind(interpreter.channels[static_cast<std::size_t>(channel_of(message))]);
+    if (is_data_entry(controller))
+        return data_kind(interpreter.channels[static_cast<std::size_t>(channel_of(message))]);
     return controller_kind(controller);
 }
 

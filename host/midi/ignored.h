@@ -7,6 +7,9 @@
 
 namespace jawari::host {
 
+/// `controller 91 (reverb)`
+std::string controller_kind(int controller);
+
 /// The kind of a message for which MidiActions::ignored was set: `controller 91 (reverb)`.
 std::string ignored_kind(const MidiInterpreter& interpreter, const ChannelMessage& message);
 

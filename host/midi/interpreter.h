@@ -71,6 +71,7 @@ struct MidiChannel {
     bool sustain = false, hold_2 = false, sostenuto = false;
     bool portamento = false;
     int portamento_time = 0;  ///< controller 5
+    int glide_from = -1;      ///< controller 84: key that the next note slides from; -1: none
 
     // By the key that the sender names:
     std::array<std::uint8_t, midi_key_count> open{};    ///< note-ons without their note-off

@@ -59,19 +59,6 @@ bool bound_controller(MidiInterpreter& interpreter, int channel, int controller,
            bound;
 }
 
-/// Notes of a channel with one voice slide into each other; with several there is nothing to slide from.
-void set_portamento(MidiInterpreter& interpreter, int channel, MidiActions& actions) {
-    const MidiChannel& state = channel_state(interpreter, channel);
-    const bool slides = state.portamento && state.mono;
-    const ParameterDeclaration& time = declaration_of(ParameterId::SlideTime);
-    const double initial = interpreter.settings.initial[static_cast<std::size_t>(ParameterId::SlideTime)];
-    const double slide_s = slides ? parameter_value(time, control_travel(state.portamento_time, 7)) : initial;
-    for_each_reached(interpreter, channel, [&](int reached) {
-        add_event(actions, set_parameter(0, ParameterId::Legato, slides ? 1 : state.legato, reached));
-        add_event(actions, set_parameter(0, ParameterId::SlideTime, slide_s, reached));
-    });
-}
-
 /// Either pedal holds.
 void add_sustain(MidiInterpreter& interpreter, int channel, MidiActions& actions) {
     const MidiChannel& state = channel_state(interpreter, channel);
@@ -85,13 +72,16 @@ bool default_controller(MidiInterpreter& interpreter, int channel, int controlle
     switch (controller) {
         case 5:
             state.portamento_time = value;
-            if (state.portamento && state.mono) set_portamento(interpreter, channel, actions);
+            if (state.portamento && state.mono) add_portamento(interpreter, channel, actions);
             return true;
         case 65:
             if (state.portamento == (value >= 64)) return true;
             state.portamento = value >= 64;
-            if (state.mono) set_portamento(interpreter, channel, actions);
+            if (state.mono) add_portamento(interpreter, channel, actions);
             return true;
+        case 84:  // a string slides only from where it is
+            state.glide_from = state.open[static_cast<std::size_t>(value)] > 0 ? value : -1;
+            return state.glide_from >= 0;
         case 66:
             for_each_reached(interpreter, channel,
                              [&](int reached) { set_sostenuto(interpreter, reached, value >= 64, actions); });
@@ -117,8 +107,9 @@ void reset_controllers(MidiInterpreter& interpreter, int channel, MidiActions& a
     state.sustain = state.hold_2 = false;
     if (state.portamento) {
         state.portamento = false;
-        if (state.mono) set_portamento(interpreter, channel, actions);
+        if (state.mono) add_portamento(interpreter, channel, actions);
     }
+    state.glide_from = -1;
     set_sostenuto(interpreter, channel, false, actions);
     add_event(actions, jawari::reset_controllers(0, channel));
     if (reached_timbre(interpreter, channel) != 0.5) add_timbre(interpreter, channel, actions);
@@ -145,7 +136,7 @@ void set_mono(MidiInterpreter& interpreter, int channel, int count, bool mono, M
         MidiChannel& state = channel_state(interpreter, each);
         const bool changes = state.mono != mono && state.portamento;
         state.mono = mono;
-        if (changes) set_portamento(interpreter, each, actions);
+        if (changes) add_portamento(interpreter, each, actions);
     }
 }
 
@@ -159,6 +150,23 @@ double whole_bend(const MidiInterpreter& interpreter, int channel) JAWARI_REALTI
     }
     return std::clamp(bend + interpreter.master_fine_semitones, -largest_bend_semitones,
                       largest_bend_semitones);
+}
+
+double portamento_s(const MidiChannel& channel) JAWARI_REALTIME {
+    return parameter_value(declaration_of(ParameterId::SlideTime),
+                           control_travel(channel.portamento_time, 7));
+}
+
+/// Notes of a channel with one voice slide into each other; with several there is nothing to slide from.
+void add_portamento(const MidiInterpreter& interpreter, int channel, MidiActions& actions) JAWARI_REALTIME {
+    const MidiChannel& state = interpreter.channels[static_cast<std::size_t>(channel)];
+    const bool slides = state.portamento && state.mono;
+    const double initial = interpreter.settings.initial[static_cast<std::size_t>(ParameterId::SlideTime)];
+    const double slide_s = slides ? portamento_s(state) : initial;
+    for_each_reached(interpreter, channel, [&](int reached) {
+        add_event(actions, set_parameter(0, ParameterId::Legato, slides ? 1 : state.legato, reached));
+        add_event(actions, set_parameter(0, ParameterId::SlideTime, slide_s, reached));
+    });
 }
 
 void add_bend(const MidiInterpreter& interpreter, int channel, MidiActions& actions) JAWARI_REALTIME {

@@ -48,6 +48,12 @@ void note_off_message(MidiInterpreter& interpreter, int channel, int key, int ve
 /// Forgets which keys are down: the instrument has let go of all.
 void forget_notes(MidiChannel& channel) JAWARI_REALTIME;
 
+/// What slides take by controller 5 [s].
+double portamento_s(const MidiChannel& channel) JAWARI_REALTIME;
+
+/// Legato and the time of slides as the channel's controllers have set them, to all that it reaches.
+void add_portamento(const MidiInterpreter& interpreter, int channel, MidiActions& actions) JAWARI_REALTIME;
+
 /// The sostenuto pedal: keys that are down when it goes down stay until it goes up.
 void set_sostenuto(MidiInterpreter& interpreter, int channel, bool down,
                    MidiActions& actions) JAWARI_REALTIME;

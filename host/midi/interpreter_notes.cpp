@@ -101,6 +101,25 @@ void end_mono_key(MidiInterpreter& interpreter, int channel, int key, MidiAction
     end_note(interpreter, channel, key, neutral_release_velocity, actions);
 }
 
+/// The key of controller 84 is still down.
+bool slides_from(const MidiChannel& state, int key) {
+    return state.glide_from >= 0 && state.glide_from != key &&
+           state.open[static_cast<std::size_t>(state.glide_from)] > 0;
+}
+
+/// One note slides from another, which it ends, whatever the mode and the portamento switch.
+void add_slide(MidiInterpreter& interpreter, int channel, int key, double velocity, MidiActions& actions) {
+    MidiChannel& state = channel_state(interpreter, channel);
+    const int from = state.glide_from;
+    add_event(actions, set_parameter(0, ParameterId::Legato, 1, channel));
+    add_event(actions, set_parameter(0, ParameterId::SlideTime, portamento_s(state), channel));
+    add_note_on(interpreter, channel, key, velocity, actions);
+    state.open[static_cast<std::size_t>(from)] = 0;
+    if (state.mono_key == from) state.mono_key = -1;
+    end_mono_key(interpreter, channel, from, actions);
+    add_portamento(interpreter, channel, actions);
+}
+
 }  // namespace
 
 void note_on_message(MidiInterpreter& interpreter, int channel, int key, int velocity,
@@ -119,7 +138,12 @@ void note_on_message(MidiInterpreter& interpreter, int channel, int key, int vel
     const auto at = static_cast<std::size_t>(key);
     if (state.open[at] < std::numeric_limits<std::uint8_t>::max()) state.open[at] += 1;
     state.let_go[at] = false;
-    add_note_on(interpreter, channel, key, struck, actions);
+    if (slides_from(state, key)) {
+        add_slide(interpreter, channel, key, struck, actions);
+    } else {
+        add_note_on(interpreter, channel, key, struck, actions);
+    }
+    state.glide_from = -1;
     const int before = state.mono_key;
     state.mono_key = key;
     if (state.mono && before >= 0 && before != key) end_mono_key(interpreter, channel, before, actions);
@@ -132,7 +156,7 @@ void note_off_message(MidiInterpreter& interpreter, int channel, int key, int ve
 }
 
 void forget_notes(MidiChannel& channel) JAWARI_REALTIME {
-    channel.mono_key = -1;
+    channel.mono_key = channel.glide_from = -1;
     channel.open.fill(0);
     channel.kept.reset();
     channel.let_go.reset();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/input_file.h"
+#include "base/suggestion.h"
 #include "base/text.h"
 #include "formats/json/object_reader.h"
 #include "formats/json/parse.h"
@@ -72,7 +73,8 @@ const ParameterDeclaration* read_parameter(ObjectReader& reader) {
         if (each.key == key) return &each;
         keys.emplace_back(each.key);
     }
-    reader.problems().add(reader.path_of("parameter"), in_quotes(key), join(keys) + ", none");
+    keys.emplace_back(no_parameter);
+    reader.problems().add(reader.path_of("parameter"), in_quotes(key) + did_you_mean(key, keys), join(keys));
     return nullptr;
 }
 

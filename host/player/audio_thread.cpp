@@ -72,6 +72,7 @@ void AudioThread::take_messages(std::size_t frames) JAWARI_REALTIME {
 void AudioThread::apply(const ChannelMessage& message, std::size_t offset) JAWARI_REALTIME {
     interpret(interpreter_, message, actions_);
     remember(controllers_, message);
+    if (actions_.ignored) count_ignored(message);
     for (std::size_t i = 0; i < actions_.count; ++i) add_event(actions_.events[i], offset);
     if (actions_.program.asked) {
         const ProgramRequest& asked = actions_.program;
@@ -84,10 +85,22 @@ void AudioThread::apply(const ChannelMessage& message, std::size_t offset) JAWAR
     if (links_.monitor.load(std::memory_order_relaxed)) links_.applied.push({frame, message});
 }
 
+void AudioThread::count_ignored(const ChannelMessage& message) JAWARI_REALTIME {
+    LiveMeters& meters = links_.meters;
+    std::atomic<std::uint64_t>* count = &meters.moved_notes;
+    if (kind_of(message) == MessageKind::ControlChange)
+        count =
+            is_data_entry(message.data1) ? &meters.ignored_data : &meters.ignored_controllers[message.data1];
+    count->fetch_add(1, std::memory_order_relaxed);
+}
+
 void AudioThread::add_event(InstrumentEvent event, std::size_t offset) JAWARI_REALTIME {
     // As make_score(): in guitar mode, other channels have no strings.
     const bool guitar = settings_.interpreter.guitar_channel >= 0;
-    if (guitar && event.type == InstrumentEventType::NoteOn && event.string < 0) return;
+    if (guitar && event.type == InstrumentEventType::NoteOn && event.string < 0) {
+        links_.meters.unplayed_notes.fetch_add(1, std::memory_order_relaxed);
+        return;
+    }
     event.frame = offset;
     events_.push_back(event);
     if (event.type != InstrumentEventType::SetParameter) return;

@@ -79,6 +79,7 @@ class AudioThread {
     // audio_thread.cpp
     void take_messages(std::size_t frames) JAWARI_REALTIME;
     void apply(const ChannelMessage& message, std::size_t offset) JAWARI_REALTIME;
+    void count_ignored(const ChannelMessage& message) JAWARI_REALTIME;
     void add_event(InstrumentEvent event, std::size_t offset) JAWARI_REALTIME;
     void render(double* left, double* right, std::size_t begin, std::size_t frames) JAWARI_REALTIME;
     void follow_gain(std::size_t frames) JAWARI_REALTIME;

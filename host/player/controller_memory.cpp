@@ -67,6 +67,7 @@ void remember_system(ControllerMemory& memory, const ChannelMessage& message) {
             if (message.data1 < memory.rhythm.size()) memory.rhythm[message.data1] = message.data2;
             break;
         default:
+            remember_tuning(memory.tunings, message);
             break;
     }
 }

@@ -1,5 +1,5 @@
-// What controllers, bends and data entry have set so far: a recording that begins later starts with it, so
-// that its messages alone reproduce it.
+// What controllers, bends, data entry and tunings have set so far: a recording that begins later starts with
+// it, so that its messages alone reproduce it.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include "jawari/realtime.h"
 #include "midi/channel_message.h"
 #include "midi/system_message.h"
+#include "player/tuning_memory.h"
 
 namespace jawari::host {
 
@@ -25,9 +26,9 @@ struct ChannelMemory {
 
 struct ControllerMemory {
     std::array<ChannelMemory, 16> channels;
-    /// The latest reset, master volume and master tunings; status 0: none has come. Tunings of keys are not
-    /// remembered.
+    /// The latest reset, master volume and master tunings; status 0: none has come.
     std::array<ChannelMessage, 4> system{{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
+    TuningMemory tunings = make_tuning_memory();
     std::array<int, 16> rhythm{-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
 };
 
@@ -36,14 +37,16 @@ ControllerMemory make_controller_memory();
 void remember(ControllerMemory& memory, const ChannelMessage& message) JAWARI_REALTIME;
 
 /// At most this many messages say it all.
-inline constexpr std::size_t most_recalled_messages = std::size_t{16} * (128 + 3 + 7 * 6 + 1) + 4;
+inline constexpr std::size_t most_recalled_messages =
+    std::size_t{16} * (128 + 3 + 7 * 6 + 1) + 4 + most_recalled_tunings;
 
 namespace detail {
 
-/// Set by other means than their last value: bank, data entry and its selection, velocity prefix, modes.
+/// Set by other means than their last value: bank, data entry and its selection, modes; or for one note:
+/// velocity prefix, portamento control.
 constexpr bool is_recalled(int controller) {
-    return controller != 0 && controller != 32 && controller != 6 && controller != 38 && controller != 88 &&
-           !(controller >= 96 && controller <= 101) && controller < 120;
+    return controller != 0 && controller != 32 && controller != 6 && controller != 38 && controller != 84 &&
+           controller != 88 && !(controller >= 96 && controller <= 101) && controller < 120;
 }
 
 template <class Sink>
@@ -74,6 +77,7 @@ void recall(const ControllerMemory& memory, const Sink& sink) {
         if (memory.rhythm[c] >= 0)
             sink(ChannelMessage{static_cast<std::uint8_t>(SystemKind::Rhythm), c,
                                 static_cast<std::uint8_t>(memory.rhythm[c])});
+    recall_tunings(memory.tunings, sink);
     for (std::uint8_t c = 0; c < 16; ++c)
         detail::recall_registered(memory.channels[c], static_cast<std::uint8_t>(0xB0 + c), 6, sink);
     for (std::uint8_t c = 0; c < 16; ++c) {

@@ -27,6 +27,11 @@ LiveStatistics take_statistics(LiveMeters& meters) {
     now.faded_voices = meters.faded_voices.load(relaxed);
     now.nonfinite_resets = meters.nonfinite_resets.load(relaxed);
     now.limiter_gain = meters.limiter_gain.load(relaxed);
+    for (std::size_t controller = 0; controller < now.ignored.controllers.size(); ++controller)
+        now.ignored.controllers[controller] = meters.ignored_controllers[controller].load(relaxed);
+    now.ignored.data = meters.ignored_data.load(relaxed);
+    now.ignored.moved_notes = meters.moved_notes.load(relaxed);
+    now.ignored.unplayed_notes = meters.unplayed_notes.load(relaxed);
     return now;
 }
 

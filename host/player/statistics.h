@@ -10,6 +10,14 @@
 
 namespace jawari::host {
 
+/// Messages that meant something, but not here, by kind.
+struct LiveIgnored {
+    std::array<std::uint64_t, 128> controllers{};
+    std::uint64_t data = 0;            ///< data entry of RPNs and NRPNs without a meaning
+    std::uint64_t moved_notes = 0;     ///< tuned or transposed beyond the keys 0 to 127
+    std::uint64_t unplayed_notes = 0;  ///< of channels without a string in guitar mode
+};
+
 /// A snapshot; each number is right by itself, all together may be of two blocks.
 struct LiveStatistics {
     std::uint64_t blocks = 0;            ///< calls of process()
@@ -35,6 +43,7 @@ struct LiveStatistics {
     std::uint64_t faded_voices = 0;   ///< taken away before they were at rest
     std::uint64_t nonfinite_resets = 0;
     double limiter_gain = 1;  ///< least since the start
+    LiveIgnored ignored;
 };
 
 /// The audio thread's side. Every store is relaxed and has one writer.
@@ -47,6 +56,8 @@ struct LiveMeters {
         limiter_gain{1};
     std::atomic<int> overload_level{0};
     std::array<std::array<std::atomic<double>, parameter_count>, 16> parameters{};  ///< by channel
+    std::array<std::atomic<std::uint64_t>, 128> ignored_controllers{};
+    std::atomic<std::uint64_t> ignored_data{0}, moved_notes{0}, unplayed_notes{0};
 };
 
 /// Empties what is counted since the last call.

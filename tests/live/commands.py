@@ -81,6 +81,23 @@ def over_the_network(bench):
     print("OSC: typed arguments, answers, errors, bundles; 3000 packets of garbage change nothing")
 
 
+def ignored(bench):
+    """What a keyboard sends and strings cannot do is counted by kind."""
+    player = bench.play("--preset", "bass-fretted", "--midi", "jack", "--osc-port", str(port := live_bench.free_port()), commands=True)
+    keyboard = bench.sender()
+    player.expect_keyboard("keyboard")
+    keyboard.send([(0, (0xB0, 91, 5)), (1, (0xB3, 91, 6)), (1, (0xB0, 7, 100)),
+                   (1, (0xF0, 0x41, 0x10, 0x42, 0x12, 0x40, 0x01, 0x30, 0x04, 0x0B, 0xF7))])
+    time.sleep(0.5)
+    player.command("stats")
+    player.expect("ignored: 2 controller 91 (reverb)", "out")
+    player.expect("ignored: 1 system exclusive: GS reverb", "out")
+    assert Osc(port).values("stats")["ignored_messages"] == 3
+    assert player.end() == 0, player.err
+    keyboard.end()
+    print("statistics: ignored messages by kind")
+
+
 def refused(bench):
     port = live_bench.free_port()
     player = bench.play("--osc-port", str(port))
@@ -134,6 +151,7 @@ def main(program, sender_program):
     with Bench("commands", program, sender_program) as bench:
         through_a_pipe(bench)
         over_the_network(bench)
+        ignored(bench)
         refused(bench)
         devices_as_json(bench)
 

@@ -159,6 +159,12 @@ class Player:
                 raise AssertionError(f"no '{text}' after {patience_s} s:\n{self.err}{self.out}")
             self._read(0.05)
 
+    def expect_times(self, text, times):
+        deadline = time.monotonic() + PATIENCE_S
+        while self.err.count(text) < times:
+            assert time.monotonic() < deadline, f"not {times} times '{text}':\n{self.err}{self.out}"
+            self._read(0.05)
+
     def expect_keyboard(self, name, times=1):
         """Connected so often by now, and JACK has taken it up: a new client gets going some cycles after it was promised."""
         deadline = time.monotonic() + PATIENCE_S
@@ -286,8 +292,9 @@ def free_port():
         return probe.getsockname()[1]
 
 
-def read_midi_frames(path):
-    """(frame, message bytes) of a type-0 file whose ticks are frames; its own reading, checked against midicsv."""
+def read_midi_frames(path, bends=False):
+    """(frame, message bytes) of notes and controllers, and of bends if asked for, in a type-0 file whose ticks are frames; its own
+    reading, checked against midicsv."""
     listing = subprocess.run(["midicsv", path], capture_output=True, text=True, check=True).stdout
     events = []
     for line in listing.splitlines():
@@ -297,6 +304,8 @@ def read_midi_frames(path):
             events.append((int(fields[1]), (status | int(fields[3]), int(fields[4]), int(fields[5]))))
         elif fields[2] == "Control_c":
             events.append((int(fields[1]), (0xB0 | int(fields[3]), int(fields[4]), int(fields[5]))))
+        elif fields[2] == "Pitch_bend_c" and bends:
+            events.append((int(fields[1]), (0xE0 | int(fields[3]), int(fields[4]) % 128, int(fields[4]) // 128)))
     return events
 
 

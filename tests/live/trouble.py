@@ -79,6 +79,69 @@ def unplugged_keyboard(bench):
     print("keyboard: pulled out, its note and pedal let go, plugged in again")
 
 
+def cut_connections(bench):
+    """A cable is pulled while both ports stay, or a program patched to the virtual port ends: what it held is let go."""
+    midi = bench.path("cut.mid")
+    player = bench.play("--preset", "bass-fretted", "--midi", "jack", "--midi-in", "virtual", "--monitor", "--record-midi", midi)
+    player.expect("real-time priority")
+    held = [(10, (0xB0, 64, 127)), (10, (0xE0, 0, 96)), (10, note(40)), (10, note(47)), (10, (0x80, 47, 64))]
+    ways = {"cut": lambda keyboard: bench.tool("jack_disconnect", "keyboard:out", "jawari-midi:in"),
+            "ended": lambda keyboard: keyboard.end(),
+            "killed": lambda keyboard: keyboard.process.kill()}
+    cuts = 0
+    for times, (way, go) in enumerate(ways.items(), start=1):
+        keyboard = bench.sender()
+        connected = bench.tool("jack_connect", "keyboard:out", "jawari-midi:in")
+        assert connected.returncode == 0, connected
+        time.sleep(0.3)
+        keyboard.send(held)
+        player.expect_times("note off    B2   (47)  velocity 64", times)
+        time.sleep(0.1)
+        go(keyboard)
+        cuts += 1
+        player.expect_times("to jawari-midi:in was cut; its notes are released", cuts)
+        if way == "cut":
+            assert 'the connection of "keyboard:out" to jawari-midi:in was cut' in player.err, player.err
+            assert bench.tool("jack_connect", "keyboard:out", "jawari-midi:in").returncode == 0
+            time.sleep(0.3)
+            keyboard.send([(0, note(52)), (10, (0x80, 52, 64))])
+            player.expect("note on     E3   (52)  velocity 100")
+            assert bench.tool("jack_disconnect", "keyboard:out", "jawari-midi:in").returncode == 0
+            cuts += 1
+            player.expect_times("to jawari-midi:in was cut; its notes are released", cuts)
+            keyboard.end()
+    time.sleep(0.3)  # the last block
+    assert player.end() == 0, player.err
+    played = [message for _, message in live_bench.read_midi_frames(midi, bends=True)]
+    released = {(0x80, 40, 64), (0xB0, 64, 0), (0xE0, 0, 64)}
+    sent = [message for _, message in held]
+    expected = [*sent, released, note(52), (0x80, 52, 64), *sent, released, *sent, released]
+    at = 0
+    for part in expected:
+        if isinstance(part, set):
+            assert set(played[at:at + 3]) == part, f"what was held is let go, and nothing else: {played}"
+            at += 3
+        else:
+            assert played[at] == part, f"{at}: {played}"
+            at += 1
+    assert at == len(played), played
+
+    player = bench.play("--preset", "bass-fretted", "--midi", "jack", "--monitor")
+    keyboard = bench.sender()
+    player.expect_keyboard("keyboard")
+    inputs = [line.strip() for line in bench.tool("jack_lsp", "-c", "keyboard:out").stdout.splitlines()[1:]]
+    assert len(inputs) == 1, inputs
+    keyboard.send([(0, note(40))])
+    player.expect("note on     E2   (40)")
+    assert bench.tool("jack_disconnect", "keyboard:out", inputs[0]).returncode == 0
+    player.expect(f'the connection of "keyboard:out" to {inputs[0]} was cut; its notes are released')
+    keyboard.end()
+    player.expect('"keyboard:out" is gone; its notes are released')
+    assert player.err.count("was cut") == 1, player.err
+    assert player.end() == 0, player.err
+    print("connections: cut, or ended with their program; note, pedal and bend let go")
+
+
 def ended(bench):
     """A recording is whole after SIGTERM, and after SIGKILL up to its last second."""
     for how, code in ((signal.SIGTERM, 0), (signal.SIGINT, 0), (signal.SIGHUP, 0), (signal.SIGKILL, -9)):
@@ -136,6 +199,7 @@ def main(program, sender_program):
     with Bench("trouble", program, sender_program) as bench:
         unknown_devices(bench)
         unplugged_keyboard(bench)
+        cut_connections(bench)
         ended(bench)
         lost_server(bench)
         other_rate(bench)

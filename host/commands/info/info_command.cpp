@@ -69,7 +69,7 @@ std::string folders_text() {
         "The program looks for a preset as a file, then in these folders as NAME.json, then among the "
         "built-in ones:\n";
     for (const PresetFolder& folder : preset_folders()) text += "  " + printable(folder.path) + "\n";
-    return text + "\nThe number is the preset's program in bank 1 (docs/formats/midi.md).";
+    return text + "\nThe number is the preset's program in bank 74/87 (docs/formats/midi.md).";
 }
 
 }  // namespace

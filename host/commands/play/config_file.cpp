@@ -3,6 +3,7 @@
 #include "base/input_file.h"
 #include "base/platform.h"
 #include "base/sound_file.h"
+#include "base/suggestion.h"
 #include "base/text.h"
 #include "commands/play/options.h"
 #include "devices/audio_devices.h"
@@ -32,7 +33,7 @@ std::string word(ObjectReader& reader, std::string_view key, const std::vector<s
     std::string text = reader.text(key);
     for (const std::string& each : allowed)
         if (each == text) return text;
-    reader.problems().add(reader.path_of(key), in_quotes(text), join(allowed));
+    reader.problems().add(reader.path_of(key), in_quotes(text) + did_you_mean(text, allowed), join(allowed));
     return text;
 }
 

@@ -71,20 +71,20 @@ const std::map<std::string, std::string> audio_words = system_words(audio_system
 const std::map<std::string, std::string> midi_words = system_words(midi_system_words());
 
 void add_device_options(CLI::App& app, PlayOptions& options) {
-    add_choice(app, "--audio", options.audio, audio_words, "Audio system, default auto");
+    add_choice(app, "-a,--audio", options.audio, audio_words, "Audio system, default auto");
     app.add_option("--audio-device", options.audio_device, "Number, or part of its name (jawari devices)")
         ->type_name("NAME|INDEX")
         ->check(some_name());
-    add_choice(app, "--midi", options.midi, midi_words, "MIDI system, default auto");
+    add_choice(app, "-m,--midi", options.midi, midi_words, "MIDI system, default auto");
     app.add_option("--midi-in", options.midi_in,
                    "Input: number, part of its name, virtual (a port for others to connect to), or auto: all "
                    "inputs, and a virtual one")
         ->type_name("NAME|INDEX|virtual|auto")
         ->check(some_name());
-    add_whole(app, "--rate", options.rate_hz, lowest_render_rate_hz, highest_render_rate_hz, " of hertz",
+    add_whole(app, "-r,--rate", options.rate_hz, lowest_render_rate_hz, highest_render_rate_hz, " of hertz",
               "Sampling rate, default 48000; the device may require another")
         ->type_name("HZ");
-    add_whole(app, "--frames", options.frames, lowest_play_frames, highest_play_frames, "",
+    add_whole(app, "-z,--frames", options.frames, lowest_play_frames, highest_play_frames, "",
               "Frames per block, default 128; the device may require another")
         ->type_name("N");
     add_flag(app, "--no-retry", options.retry, false, "End with exit code 6 when the device is lost");
@@ -93,7 +93,7 @@ void add_device_options(CLI::App& app, PlayOptions& options) {
 }
 
 void add_sound_options(CLI::App& app, PlayOptions& options) {
-    app.add_option("--preset", options.preset,
+    app.add_option("-p,--preset", options.preset,
                    "Preset file or name, default auto: guitar-steel, then as program changes select")
         ->type_name("PRESET|auto")
         ->check(some_name());
@@ -109,8 +109,9 @@ void add_sound_options(CLI::App& app, PlayOptions& options) {
         ->type_name("DBFS")
         ->check(number_between(-40, 0));
     add_parameter_settings(app, options.parameters);
-    app.add_option("--tuning", options.tuning, "Scala scale: pitches of all keys")
-        ->type_name("FILE.scl")
+    app.add_option("--tuning", options.tuning,
+                   "Pitches of all keys: a Scala scale, with Ableton's lines or without, or an AnaMark file")
+        ->type_name("FILE.scl|FILE.ascl|FILE.tun")
         ->check(some_name());
     app.add_option("--keyboard-map", options.keyboard_map, "Scala keyboard map of the scale")
         ->type_name("FILE.kbm")
@@ -135,7 +136,7 @@ void add_control_options(CLI::App& app, PlayOptions& options) {
         ->type_name("OUT.mid")
         ->check(some_name());
     app.add_flag("--force", options.overwrite, "Recordings may overwrite files");
-    add_flag(app, "--no-shell", options.shell, false,
+    add_flag(app, "-i,--no-shell", options.shell, false,
              "Read no commands, run until a signal arrives: for services");
     add_flag(app, "--monitor", options.monitor, true, "Print every MIDI message in words");
     add_whole(app, "--osc-port", options.osc_port, 1, 65535, "",

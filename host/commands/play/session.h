@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -71,6 +72,7 @@ class Session {
     Outcome<VerbReply> note(const VerbCall& call);
     Outcome<VerbReply> record(const VerbCall& call);
     VerbReply stats();
+    [[nodiscard]] std::vector<std::pair<std::string, std::uint64_t>> ignored() const;
 
     PlayOptions options_;
     Say say_;

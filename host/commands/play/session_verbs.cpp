@@ -1,11 +1,13 @@
 // What each command does to a session.
 
+#include "base/suggestion.h"
 #include "base/text.h"
 #include "commands/play/device_list.h"
 #include "commands/play/monitor_text.h"
 #include "commands/play/session.h"
 #include "formats/words/parameter_words.h"
 #include "instrument/preset_library.h"
+#include "midi/ignored.h"
 
 namespace jawari::host {
 
@@ -40,8 +42,14 @@ VerbReply help(const VerbCall& call) {
         if (wanted.empty() || verb.name == wanted)
             reply.lines.push_back(
                 formatted("%-42s %s", usage_of(verb).c_str(), std::string(verb.help).c_str()));
-    if (reply.lines.empty()) reply.lines.push_back("no command " + in_quotes(wanted));
+    if (reply.lines.empty())
+        reply.lines.push_back("no command " + in_quotes(wanted) + did_you_mean(wanted, verb_names()));
     return reply;
+}
+
+Error unknown_parameter(const std::string& verb, const std::string& key) {
+    const std::vector<std::string> keys = parameter_keys();
+    return usage_error(verb, in_quotes(key) + did_you_mean(key, keys), join(keys));
 }
 
 }  // namespace
@@ -92,7 +100,7 @@ Outcome<VerbReply> Session::execute(const VerbCall& call) {
 
 Outcome<VerbReply> Session::set(const VerbCall& call) {
     const ParameterDeclaration* parameter = find_parameter(text_of(call, 0));
-    if (parameter == nullptr) return usage_error("set", in_quotes(text_of(call, 0)), join(parameter_keys()));
+    if (parameter == nullptr) return unknown_parameter("set", text_of(call, 0));
     const double value = number_of(call, 1);
     if (value < parameter->low || value > parameter->high)
         return usage_error("set " + std::string(parameter->key), shortest(value),
@@ -108,7 +116,7 @@ Outcome<VerbReply> Session::get(const VerbCall& call) const {
         reply.lines.push_back(with_unit(parameter, value));
         reply.values.emplace_back(parameter.key, value);
     }
-    if (reply.lines.empty()) return usage_error("get", in_quotes(text_of(call, 0)), join(parameter_keys()));
+    if (reply.lines.empty()) return unknown_parameter("get", text_of(call, 0));
     return reply;
 }
 
@@ -119,6 +127,23 @@ Outcome<VerbReply> Session::note(const VerbCall& call) {
     control_->note(static_cast<int>(number_of(call, 0)), static_cast<int>(number_of(call, 1)), seconds,
                    steady_clock_ns());
     return VerbReply{};
+}
+
+/// What meant something, but not here: `controller 91 (reverb)`, with its count.
+std::vector<std::pair<std::string, std::uint64_t>> Session::ignored() const {
+    std::vector<std::pair<std::string, std::uint64_t>> kinds;
+    const auto add = [&kinds](const std::string& what, std::uint64_t count) {
+        if (count > 0) kinds.emplace_back(what, count);
+    };
+    const LiveIgnored& live = latest_.ignored;
+    for (std::size_t controller = 0; controller < live.controllers.size(); ++controller)
+        add(controller_kind(static_cast<int>(controller)), live.controllers[controller]);
+    add("RPN and NRPN data", live.data);
+    add("notes moved beyond the keys 0 to 127", live.moved_notes);
+    add("notes of channels without a string", live.unplayed_notes);
+    if (midi_)
+        for (const auto& [name, count] : midi_->ignored_exclusives()) add("system exclusive: " + name, count);
+    return kinds;
 }
 
 VerbReply Session::stats() {
@@ -148,6 +173,12 @@ VerbReply Session::stats() {
                   static_cast<unsigned long long>(live.dropped_messages),
                   static_cast<unsigned long long>(live.nonfinite_resets)),
     };
+    const auto kinds = ignored();
+    std::uint64_t ignored_messages = 0;
+    for (const auto& [what, count] : kinds) {
+        reply.lines.push_back("ignored: " + std::to_string(count) + " " + printable(what));
+        ignored_messages += count;
+    }
     reply.values = {{"load", live.mean_load},
                     {"worst_load", worst_load_},
                     {"late_blocks", static_cast<double>(live.late_blocks)},
@@ -160,6 +191,7 @@ VerbReply Session::stats() {
                     {"notes", static_cast<double>(live.notes)},
                     {"ignored_notes", static_cast<double>(live.ignored_notes)},
                     {"messages", static_cast<double>(live.messages)},
+                    {"ignored_messages", static_cast<double>(ignored_messages)},
                     {"lost_messages", static_cast<double>(live.dropped_messages)}};
     return reply;
 }

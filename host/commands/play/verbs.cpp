@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/suggestion.h"
 #include "base/text.h"
 
 namespace jawari::host {
@@ -126,13 +127,13 @@ std::string spelled(const VerbValue& value) {
     return text != nullptr ? in_quotes(*text) : shortest(std::get<double>(value));
 }
 
-std::string verb_names() {
+}  // namespace
+
+std::vector<std::string> verb_names() {
     std::vector<std::string> names;
     for (const Verb& verb : verbs) names.emplace_back(verb.name);
-    return join(names);
+    return names;
 }
-
-}  // namespace
 
 std::span<const Verb> verb_table() {
     return verbs;
@@ -161,7 +162,8 @@ std::string usage_of(const Verb& verb) {
 
 Outcome<VerbCall> make_call(std::string_view name, const std::vector<VerbValue>& arguments) {
     const Verb* verb = find_verb(name);
-    if (verb == nullptr) return usage_error("command", in_quotes(name), verb_names());
+    if (verb == nullptr)
+        return usage_error("command", in_quotes(name) + did_you_mean(name, verb_names()), join(verb_names()));
     const auto rules = arguments_of(*verb);
     const auto required = static_cast<std::size_t>(
         std::count_if(rules.begin(), rules.end(), [](const ArgumentRule& rule) { return !rule.optional; }));

@@ -51,6 +51,8 @@ struct Verb {
 
 std::span<const Verb> verb_table();
 
+std::vector<std::string> verb_names();
+
 /// Null if there is none of that name.
 const Verb* find_verb(std::string_view name);
 

@@ -16,12 +16,13 @@ namespace jawari::host {
 struct RenderOptions {
     std::vector<std::string> midi;  ///< files; `-`: standard input
     std::string preset = "auto";    ///< a file or a name; auto: each channel's program chooses
-    std::string out;    ///< a sound file, of the format of its name's ending; `-`: standard output; a folder
-                        ///< for several files
-    std::string stems;  ///< a WAV file, or a folder with a slash at its end; empty: none
-    std::string stats;  ///< JSON; empty: none; `-`: standard output
-    std::string plot;   ///< waveform and spectrogram; empty: none
+    std::string out;  ///< a sound file, of the format of its name's ending, for all MIDI files; `-`: standard
+                      ///< output; a folder for a sound file of each
+    std::string stems;          ///< a WAV file, or a folder with a slash at its end; empty: none
+    std::string stats;          ///< JSON; empty: none; `-`: standard output
+    std::string plot;           ///< waveform and spectrogram; empty: none
     bool overwrite = false;     ///< replaces files of other kinds too
+    bool mono = false;          ///< one channel: the mean of both
     bool quiet = false;         ///< neither a summary nor notices; warnings and errors are shown
     bool only_strings = false;  ///< auto: programs without strings are silent
     bool strict = false;        ///< files that depart from the standard are refused; warnings are an error
@@ -36,17 +37,21 @@ struct RenderOptions {
     std::string tuning;        ///< a .scl file; empty: as the presets are tuned
     std::string keyboard_map;  ///< a .kbm file; empty: the default map
     bool move_frets = false;
-    std::string midi_map;                                    ///< JSON; empty: the default map
-    double tempo_percent = 100;                              ///< of the file's tempo
-    std::vector<int> mute, solo;                             ///< channels, 1 to 16; solo: no others
-    int transpose_semitones = 0;                             ///< of all notes but drums
-    int guitar_channel = 0;                                  ///< 1 to 16; 0: no guitar mode
+    std::string midi_map;         ///< JSON; empty: the default map
+    double start_s = 0;           ///< what comes before it is not played, but its settings hold
+    std::optional<double> end_s;  ///< what is down is let go there; nothing: at the end of the music
+    double tempo_percent = 100;   ///< of the file's tempo
+    std::vector<int> mute, solo;  ///< channels, 1 to 16; solo: no others
+    int transpose_semitones = 0;  ///< of all notes but drums
+    int guitar_channel = 0;       ///< 1 to 16; 0: no guitar mode
     std::vector<std::pair<ParameterId, double>> parameters;  ///< in each parameter's unit
     unsigned jobs = 0;                                       ///< 0: one a processor
 };
 
 inline constexpr const char* automatic_preset = "auto";
 inline constexpr double longest_tail_s = 600;
+/// Of --start and --end, as long as the longest music that is read.
+inline constexpr double latest_time_s = 1000.0 * 3600;
 
 /// `--tail auto` ends once the sound has stayed below the silence for this long, at the latest after
 /// automatic_tail_limit_s.

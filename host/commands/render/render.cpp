@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "base/file_plan.h"
+#include "base/input_file.h"
 #include "base/interrupt.h"
 #include "base/output_file.h"
 #include "base/text.h"
@@ -32,15 +34,30 @@ namespace {
 
 // ------------------------------------------------------------------------------------------ the command line
 
+/// Several files go into a folder, or one after the other into a file whose name says that it is a sound
+/// file: a folder that is not there must not become one.
+bool holds_several(const std::string& out) {
+    return out == "-" || is_folder(out) || path_exists(out) || std::filesystem::path(out).has_extension();
+}
+
 MaybeError check_several(const RenderOptions& options) {
     if (options.midi.size() == 1) return std::nullopt;
-    if (!is_folder(options.out)) return usage_error("--out", options.out, "a folder, for several MIDI files");
+    if (!holds_several(options.out))
+        return usage_error("--out", options.out,
+                           "a folder, or a sound file such as song.wav, for several MIDI files");
     const std::pair<const char*, const std::string*> single[] = {
         {"--stats", &options.stats}, {"--plot", &options.plot}, {"--stems", &options.stems}};
     for (const auto& [option, value] : single)
         if (!value->empty()) return usage_error(option, *value, "only with one MIDI file");
     if (std::count(options.midi.begin(), options.midi.end(), "-") > 0)
         return usage_error("MIDI", "-", "standard input only as the one file");
+    return std::nullopt;
+}
+
+MaybeError check_times(const RenderOptions& options) {
+    if (options.end_s && *options.end_s <= options.start_s)
+        return usage_error("--end", shortest(*options.end_s),
+                           "later than --start, " + shortest(options.start_s) + " s");
     return std::nullopt;
 }
 
@@ -55,21 +72,19 @@ MaybeError check_dependencies(const RenderOptions& options) {
     return std::nullopt;
 }
 
-/// One job a file; in a folder each WAV file has its MIDI file's name.
+/// One job for a sound file; in a folder each WAV file has its MIDI file's name.
 Outcome<std::vector<RenderJob>> jobs_of(const RenderOptions& options) {
+    if (options.out == "-" || !is_folder(options.out))
+        return std::vector<RenderJob>{{options.midi, options.out}};
     std::vector<RenderJob> jobs;
     std::set<std::string> taken;
     for (const std::string& midi : options.midi) {
-        if (options.out == "-" || !is_folder(options.out)) {
-            jobs.push_back({midi, options.out});
-            continue;
-        }
         const std::string stem = midi == "-" ? "standard-input" : std::filesystem::path(midi).stem().string();
         const std::string out = (std::filesystem::path(options.out) / (stem + ".wav")).string();
         if (!taken.insert(out).second)
             return usage_error("MIDI", midi,
                                "files of different names, for they become WAV files in one folder");
-        jobs.push_back({midi, out});
+        jobs.push_back({{midi}, out});
     }
     return jobs;
 }
@@ -179,6 +194,11 @@ Outcome<ScoreRules> score_rules(const RenderOptions& options, const InstrumentSe
     rules.interpreter.transpose_semitones = options.transpose_semitones;
     rules.tempo = options.tempo_percent / 100;
     rules.muted = muted_channels(options);
+    const auto frame = [&options](double seconds) {
+        return static_cast<std::uint64_t>(std::llround(seconds * options.rate_hz));
+    };
+    rules.excerpt.begin = frame(options.start_s);
+    if (options.end_s) rules.excerpt.end = frame(*options.end_s);
     set_parameters(options, rules);
     if (!options.midi_map.empty()) {
         const auto map = load_midi_map(options.midi_map);
@@ -207,8 +227,11 @@ MaybeError print_summary(const RenderJob& job, const RenderOptions& options, con
     if (!options.stats.empty() || options.out == "-" || options.quiet) return std::nullopt;
     auto output = OutputFile::create("-");
     if (!output) return output.error();
-    std::string text = stats_summary(result.stats);
-    if (options.midi.size() > 1) text = printable(job.out) + "\n" + text;
+    std::string text;
+    for (std::size_t i = 0; i < result.stats.size(); ++i) {
+        if (options.midi.size() > 1) text += printable(job.midi.size() > 1 ? job.midi[i] : job.out) + "\n";
+        text += stats_summary(result.stats[i]);
+    }
     if (auto error = output.value().write(text)) return error;
     return output.value().commit();
 }
@@ -221,6 +244,10 @@ std::size_t print_messages(const RenderedJob& result, bool quiet) {
         warnings += message.starts_with("warning: ") ? 1 : 0;
     }
     return warnings;
+}
+
+std::string subject_of(const RenderJob& job) {
+    return job.midi.size() == 1 ? job.midi.front() : job.out;
 }
 
 /// Workers take jobs in order until none is left.
@@ -285,7 +312,7 @@ MaybeError print_results(const std::vector<RenderJob>& jobs, const RenderOptions
         }
         const std::size_t warnings = print_messages(result->value(), options.quiet);
         if (auto error = print_summary(jobs[i], options, result->value())) return error;
-        if (auto error = strict_error(jobs[i].midi, warnings); error && options.strict) fail(*error);
+        if (auto error = strict_error(subject_of(jobs[i]), warnings); error && options.strict) fail(*error);
     }
     return last;
 }
@@ -293,7 +320,7 @@ MaybeError print_results(const std::vector<RenderJob>& jobs, const RenderOptions
 }  // namespace
 
 MaybeError render(const RenderOptions& options) {
-    for (const auto check : {check_several, check_dependencies})
+    for (const auto check : {check_several, check_dependencies, check_times})
         if (auto error = check(options)) return error;
     const auto jobs = jobs_of(options);
     if (!jobs) return jobs.error();

@@ -23,19 +23,23 @@ const std::map<std::string, Quality> qualities = quality_words();
 std::string footer() {
     std::vector<std::string> names;
     for (const NamedPreset& preset : named_presets()) names.push_back(preset.name);
-    return "MIDI is a standard MIDI file of type 0 or 1; - is standard input. PRESET is a JSON file "
+    return "MIDI is a standard MIDI file; - is standard input. PRESET is a JSON file "
            "(docs/formats/preset.md) or\na name: " +
            join(names) +
            ".\n"
            "With auto each channel plays its own instrument, which the channel's program changes select "
            "(docs/formats/midi.md);\nwith a preset all channels play one instrument. Notes outside its range "
            "are ignored and counted.\n\n"
+           "Several MIDI files go into a folder, a WAV file each, or one after the other into one sound "
+           "file.\n"
+           "A TIME is 90.5 (seconds), 1:30.5 or 1:02:03, at the tempo that is played.\n\n"
            "Examples:\n"
            "  jawari render song.mid -o song.wav\n"
            "  jawari render song.mid --preset bass-fretted -o song.wav --plot song.png\n"
            "  jawari render song.mid --preset my-bass.json -o song.wav --rate 96000 --format float --tail 2\n"
            "  jawari render song.mid -o song.wav --stems stems/ --set palm_mute=0.3 --limiter -1\n"
            "  jawari render *.mid -o out/ --jobs 4\n"
+           "  jawari render one.mid two.mid -o both.flac --start 0:10 --end 1:30 --mono\n"
            "  jawari render - -o - --preset bass-fretted < song.mid | aplay\n\n"
            "Exit codes: 0 done; 2 wrong command line; 3 invalid input file; 4 a file cannot be read or "
            "written;\n"
@@ -51,6 +55,15 @@ CLI::Validator tail() {
     return {check, ""};
 }
 
+CLI::Validator time_of_music() {
+    const auto check = [](const std::string& text) {
+        const auto value = parse_time(text);
+        if (value && *value <= latest_time_s) return std::string();
+        return refusal(text, "seconds, M:SS or H:MM:SS, to " + shortest(latest_time_s) + " s");
+    };
+    return {check, ""};
+}
+
 CLI::Validator picture() {
     const auto check = [](const std::string& text) {
         const std::string lower = lower_case(text);
@@ -62,14 +75,14 @@ CLI::Validator picture() {
 
 void add_sound_options(CLI::App& app, RenderOptions& options) {
     app.add_option_function<std::string>(
-           "--rate",
+           "-r,-s,--rate",
            [&options](const std::string& text) {
                options.rate_hz = static_cast<std::uint32_t>(*parse_number(text));
            },
-           "Sampling rate of the WAV file, default 48000")
+           "Sampling rate, default 48000")
         ->type_name("HZ")
         ->check(whole_between(lowest_render_rate_hz, highest_render_rate_hz, " of hertz"));
-    add_choice(app, "--format", options.format, formats, "Sample format of the WAV file, default pcm24");
+    add_choice(app, "--format", options.format, formats, "Sample format, default pcm24");
     app.add_option_function<std::string>(
            "--tail",
            [&options](const std::string& text) {
@@ -95,8 +108,9 @@ void add_sound_options(CLI::App& app, RenderOptions& options) {
 
 void add_music_options(CLI::App& app, RenderOptions& options) {
     add_parameter_settings(app, options.parameters);
-    app.add_option("--tuning", options.tuning, "Scala scale: pitches of all keys")
-        ->type_name("FILE.scl")
+    app.add_option("--tuning", options.tuning,
+                   "Pitches of all keys: a Scala scale, with Ableton's lines or without, or an AnaMark file")
+        ->type_name("FILE.scl|FILE.ascl|FILE.tun")
         ->check(some_name());
     app.add_option("--keyboard-map", options.keyboard_map, "Scala keyboard map of the scale")
         ->type_name("FILE.kbm")
@@ -108,11 +122,21 @@ void add_music_options(CLI::App& app, RenderOptions& options) {
         "Refuse MIDI files that depart from the standard instead of repairing what they lack; warnings are "
         "an error (exit code 7), the outputs are written nevertheless");
     app.add_flag("--move-frets", options.move_frets, "Move the frets to the notes of the tuning");
-    app.add_option("--tempo", options.tempo_percent, "Tempo, 10 to 1000 % of the file's, default 100")
+    app.add_option_function<std::string>(
+           "--start", [&options](const std::string& text) { options.start_s = *parse_time(text); },
+           "Leave out what comes before; its programs, controllers and bends hold, its notes do not")
+        ->type_name("TIME")
+        ->check(time_of_music());
+    app.add_option_function<std::string>(
+           "--end", [&options](const std::string& text) { options.end_s = *parse_time(text); },
+           "Let go of all notes at this time of the music; --tail follows")
+        ->type_name("TIME")
+        ->check(time_of_music());
+    app.add_option("-T,--tempo", options.tempo_percent, "Tempo, 10 to 1000 % of the file's, default 100")
         ->type_name("PERCENT")
         ->check(number_between(10, 1000));
     const auto channel = whole_between(1, 16, "");
-    app.add_option("--mute", options.mute, "Channels whose notes are left out, 1 to 16; may be repeated")
+    app.add_option("-Q,--mute", options.mute, "Channels whose notes are left out, 1 to 16; may be repeated")
         ->type_name("CHANNEL[,CHANNEL...]")
         ->delimiter(',')
         ->allow_extra_args(false)
@@ -123,7 +147,7 @@ void add_music_options(CLI::App& app, RenderOptions& options) {
         ->allow_extra_args(false)
         ->check(channel);
     app.add_option_function<std::string>(
-           "--transpose",
+           "-K,--transpose",
            [&options](const std::string& text) {
                options.transpose_semitones = static_cast<int>(*parse_number(text));
            },
@@ -153,10 +177,10 @@ void add_music_options(CLI::App& app, RenderOptions& options) {
 }
 
 void add_output_options(CLI::App& app, RenderOptions& options) {
-    app.add_option("-o,--out", options.out,
-                   "Sound file: .wav, .flac, .ogg, .aiff, .caf, .w64 or .raw; a folder for several MIDI "
-                   "files; - for WAV on "
-                   "standard output")
+    app.add_option(
+           "-o,-F,--out", options.out,
+           "Sound file: .wav, .flac, .ogg, .aiff, .caf, .w64 or .raw; a folder for a WAV file of each "
+           "MIDI file; - for WAV on standard output")
         ->required()
         ->type_name("FILE")
         ->check(some_name());
@@ -170,11 +194,12 @@ void add_output_options(CLI::App& app, RenderOptions& options) {
     app.add_option("--plot", options.plot, "Waveform and spectrogram: FILE.svg or FILE.png")
         ->type_name("FILE")
         ->check(picture());
+    app.add_flag("--mono", options.mono, "One channel, the mean of left and right");
     app.add_flag("-q,--quiet", options.quiet, "Print neither a summary nor notices");
     app.add_flag("--overwrite", options.overwrite,
                  "Outputs may replace files of other kinds; never what is read");
     app.add_option_function<std::string>(
-           "--jobs",
+           "-j,--jobs",
            [&options](const std::string& text) { options.jobs = static_cast<unsigned>(*parse_number(text)); },
            "Number of files rendered at the same time, default one per processor")
         ->type_name("N")
@@ -184,12 +209,12 @@ void add_output_options(CLI::App& app, RenderOptions& options) {
 }  // namespace
 
 void add_render_command(CLI::App& app, Command& command) {
-    CLI::App* render_app = app.add_subcommand("render", "Plays MIDI files on instruments, into WAV files");
+    CLI::App* render_app = app.add_subcommand("render", "Plays MIDI files on instruments, into sound files");
     const auto options = std::make_shared<RenderOptions>();
     render_app->add_option("midi", options->midi, "Standard MIDI files; - for standard input")
         ->required()
         ->type_name("MIDI...");
-    render_app->add_option("--preset", options->preset, "Preset file or name, default auto")
+    render_app->add_option("-p,--preset", options->preset, "Preset file or name, default auto")
         ->type_name("PRESET|auto")
         ->check(some_name());
     add_output_options(*render_app, *options);

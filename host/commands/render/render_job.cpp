@@ -34,23 +34,31 @@ std::string file_name(const std::string& path) {
     return path == "-" ? "standard input" : std::filesystem::path(path).filename().string();
 }
 
-std::string input_name(const RenderJob& job) {
-    return job.midi == "-" ? "standard input" : job.midi;
+std::string input_name(const std::string& midi) {
+    return midi == "-" ? "standard input" : midi;
 }
 
-Outcome<MidiFile> load_midi(const RenderJob& job, const RenderOptions& options) {
-    const auto text = read_file(job.midi, max_midi_file_bytes);
+/// One MIDI file of a job.
+struct Piece {
+    std::string midi;
+    Score score;
+    RenderStats stats;
+};
+
+Outcome<MidiFile> load_midi(const std::string& midi, const RenderOptions& options) {
+    const auto text = read_file(midi, max_midi_file_bytes);
     if (!text) return text.error();
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.value().data());
     auto file = parse_midi(std::span(bytes, text.value().size()),
                            options.strict ? MidiReading::Strict : MidiReading::Lenient);
-    if (!file) return invalid_input(input_name(job), file.failure());
+    if (!file) return invalid_input(input_name(midi), file.failure());
     file.value().events = with_note_offs(file.value().events);
     return std::move(file.value());
 }
 
-void add_repairs(const RenderJob& job, const std::vector<MidiRepair>& repairs, RenderedJob& result) {
-    const std::string name = "notice: " + printable(input_name(job)) + ": ";
+void add_repairs(const Piece& piece, RenderedJob& result) {
+    const std::vector<MidiRepair>& repairs = piece.stats.repairs;
+    const std::string name = "notice: " + printable(input_name(piece.midi)) + ": ";
     for (std::size_t i = 0; i < std::min(repairs.size(), most_repair_notices); ++i)
         result.messages.push_back(name + printable(text_of(repairs[i])));
     if (repairs.size() > most_repair_notices)
@@ -58,16 +66,43 @@ void add_repairs(const RenderJob& job, const std::vector<MidiRepair>& repairs, R
                                   " more kinds of repairs; --strict refuses the file");
 }
 
-Outcome<Score> load_score(const RenderJob& job, const RenderContext& context, RenderedJob& result) {
+/// An excerpt that begins after the music has nothing to play.
+MaybeError check_start(const Piece& piece, const RenderOptions& options, const Excerpt& excerpt) {
+    if (excerpt.begin == 0 || excerpt.begin < piece.score.whole_frames) return std::nullopt;
+    const double end_s = static_cast<double>(piece.score.whole_frames) / options.rate_hz;
+    return usage_error("--start", shortest(options.start_s),
+                       formatted("below %.9g s, the end of ", end_s) + printable(input_name(piece.midi)));
+}
+
+Outcome<Piece> load_piece(const std::string& midi, const RenderContext& context, RenderedJob& result) {
     const RenderOptions& options = context.options;
-    const auto file = load_midi(job, options);
+    const auto file = load_midi(midi, options);
     if (!file) return file.error();
-    add_repairs(job, file.value().repairs, result);
-    result.stats.repairs = file.value().repairs;
-    Score score = make_score(file.value(), options.rate_hz, context.rules);
-    if (options.seed) humanise(score, *options.seed, options.rate_hz);
-    end_notes(score);
-    return score;
+    Piece piece{midi, {}, {}};
+    piece.stats.repairs = file.value().repairs;
+    add_repairs(piece, result);
+    piece.score = make_score(file.value(), options.rate_hz, context.rules);
+    if (auto error = check_start(piece, options, context.rules.excerpt)) return *error;
+    if (options.seed) humanise(piece.score, *options.seed, options.rate_hz);
+    end_notes(piece.score);
+    return piece;
+}
+
+Outcome<std::vector<Piece>> load_pieces(const RenderJob& job, const RenderContext& context,
+                                        RenderedJob& result) {
+    std::vector<Piece> pieces;
+    for (const std::string& midi : job.midi) {
+        if (auto stop = interruption()) return *stop;
+        auto piece = load_piece(midi, context, result);
+        if (!piece) return piece.error();
+        pieces.push_back(std::move(piece.value()));
+    }
+    return pieces;
+}
+
+std::string title_of(const RenderJob& job) {
+    const std::string first = file_name(job.midi.front());
+    return job.midi.size() == 1 ? first : first + " and " + std::to_string(job.midi.size() - 1) + " more";
 }
 
 SoundTags tags_of(const RenderJob& job, const RenderContext& context) {
@@ -77,7 +112,7 @@ SoundTags tags_of(const RenderJob& job, const RenderContext& context) {
     if (!options.tuning.empty()) comment += ", tuning " + file_name(options.tuning);
     if (!options.keyboard_map.empty()) comment += ", keyboard map " + file_name(options.keyboard_map);
     if (options.seed) comment += ", seed " + std::to_string(*options.seed);
-    return {printable(file_name(job.midi)), printable(comment)};
+    return {printable(title_of(job)), printable(comment)};
 }
 
 /// The files that the command line asks for.
@@ -105,7 +140,7 @@ AudioFormat format_of(const RenderJob& job, const RenderContext& context, std::u
 
 Outcome<Outputs> open_outputs(const RenderJob& job, const RenderContext& context, std::uint64_t frames) {
     const RenderOptions& options = context.options;
-    auto mix = AudioFile::create(job.out, 2, format_of(job, context, frames));
+    auto mix = AudioFile::create(job.out, options.mono ? 1 : 2, format_of(job, context, frames));
     if (!mix) return mix.error();
     Outputs outputs{std::move(mix.value()), {}, {}, {}, 0};
     if (auto error = open_target(options.stats, outputs.stats)) return *error;
@@ -127,14 +162,16 @@ MaybeError open_stems(const RenderJob& job, const RenderContext& context, std::u
     return std::nullopt;
 }
 
-SoundSink sink_to(Outputs& outputs, bool plots, const std::function<void(double)>& progress) {
+SoundSink sink_to(Outputs& outputs, const RenderOptions& options) {
     SoundSink sink;
-    sink.mix = [&outputs, plots](std::span<const double> left, std::span<const double> right) {
+    const std::size_t channels = options.mono ? 1 : 2;
+    sink.mix = [&outputs, channels, plots = !options.plot.empty()](std::span<const double> left,
+                                                                   std::span<const double> right) {
         const double begun = thread_cpu_s();
         for (std::size_t n = 0; n < left.size() && plots; ++n)
             outputs.plotted.push_back(static_cast<float>((left[n] + right[n]) / 2));
         const std::array sides{left, right};
-        auto error = outputs.mix.write(sides);
+        auto error = outputs.mix.write(std::span(sides).first(channels));
         outputs.cpu_s += thread_cpu_s() - begun;
         return error;
     };
@@ -146,7 +183,6 @@ SoundSink sink_to(Outputs& outputs, bool plots, const std::function<void(double)
             return error;
         };
     }
-    sink.progress = progress;
     return sink;
 }
 
@@ -164,51 +200,56 @@ Outcome<std::vector<SharedInstrument>> load_instruments(const Score& score, Inst
     return instruments;
 }
 
-void add_notices(const Score& score, const Ensemble& ensemble, const RenderContext& context,
+void add_notices(const Piece& piece, const Ensemble& ensemble, const RenderContext& context,
                  RenderedJob& result) {
+    const Score& score = piece.score;
+    const std::string notice =
+        context.options.midi.size() == 1 ? "notice: " : "notice: " + printable(input_name(piece.midi)) + ": ";
     for (const EnsemblePart& part : ensemble.parts) {
         const InstrumentDescription& instrument = part.instrument->preset.instrument;
         if (instrument.law == ImpactLaw::Signorini && instrument.frets.restitution > 0)
-            result.messages.push_back("notice: " + printable(part.instrument->preset.file) +
+            result.messages.push_back(notice + printable(part.instrument->preset.file) +
                                       ": the law signorini ignores the restitution of the frets");
     }
+    if (score.cut_notes > 0)
+        result.messages.push_back(notice + formatted("%llu notes began before --start and are not played",
+                                                     static_cast<unsigned long long>(score.cut_notes)));
     if (score.silent_notes > 0)
-        result.messages.push_back(
-            formatted("notice: %llu notes are silent: drums, or programs without strings",
-                      static_cast<unsigned long long>(score.silent_notes)));
+        result.messages.push_back(notice +
+                                  formatted("%llu notes are silent: drums, or programs without strings",
+                                            static_cast<unsigned long long>(score.silent_notes)));
     for (const IgnoredKind& kind : score.ignored)
         result.messages.push_back(
-            formatted("notice: %llu messages do nothing: ", static_cast<unsigned long long>(kind.count)) +
+            notice + formatted("%llu messages do nothing: ", static_cast<unsigned long long>(kind.count)) +
             printable(kind.what));
     if (score.program_changes > 0 && !context.rules.choose)
-        result.messages.emplace_back("notice: program changes do nothing; --preset auto follows them");
+        result.messages.push_back(notice + "program changes do nothing; --preset auto follows them");
 }
 
-void add_contact_messages(const RenderJob& job, RenderedJob& result) {
+void add_contact_messages(const Piece& piece, RenderedJob& result) {
     std::vector<NamedCounters> parts;
-    for (const PartStats& part : result.stats.parts) parts.push_back({part.preset, part.contacts});
-    for (std::string& line : contact_warnings(job.midi, "preset", parts))
+    for (const PartStats& part : piece.stats.parts) parts.push_back({part.preset, part.contacts});
+    for (std::string& line : contact_warnings(piece.midi, "preset", parts))
         result.messages.push_back(std::move(line));
 }
 
 void add_level_messages(const RenderJob& job, const RenderOptions& options, const Outputs& outputs,
-                        RenderedJob& result) {
-    const ScoreStatistics& score = result.stats.score;
+                        const ScoreStatistics& sound, RenderedJob& result) {
     const std::string name = printable(job.out == "-" ? "standard output" : job.out);
     const bool kept = options.format == SampleFormat::Float;
-    if (score.clipped > 0) {
-        const double peak = *peak_dbfs(result.stats);
+    if (sound.clipped > 0) {
+        const double peak = 20 * std::log10(sound.peak);
         result.messages.push_back(
             "warning: " + name + ": " +
             formatted("%llu samples beyond full scale %s, peak %+.1f dBFS; use --gain %.0f",
-                      static_cast<unsigned long long>(score.clipped), kept ? "kept" : "clipped", peak,
+                      static_cast<unsigned long long>(sound.clipped), kept ? "kept" : "clipped", peak,
                       std::floor(options.gain_db - peak - 1)));
     }
-    if (score.limited_frames > 0)
+    if (sound.limited_frames > 0)
         result.messages.push_back("notice: " + name + ": " +
                                   formatted("the limiter lowered %.3g s of the sound, by up to %.1f dB",
-                                            static_cast<double>(score.limited_frames) / options.rate_hz,
-                                            -20 * std::log10(score.least_gain)));
+                                            static_cast<double>(sound.limited_frames) / options.rate_hz,
+                                            -20 * std::log10(sound.least_gain)));
     if (outputs.stems && outputs.stems->clipped() > 0)
         result.messages.push_back("warning: " + printable(options.stems) + ": " +
                                   formatted("%llu samples of stems beyond full scale %s",
@@ -216,15 +257,28 @@ void add_level_messages(const RenderJob& job, const RenderOptions& options, cons
                                             kept ? "kept" : "clipped"));
 }
 
+/// Of all pieces of a sound file.
+ScoreStatistics whole_sound(const std::vector<Piece>& pieces) {
+    ScoreStatistics whole;
+    for (const Piece& piece : pieces) {
+        const ScoreStatistics& each = piece.stats.score;
+        whole.peak = std::max(whole.peak, each.peak);
+        whole.clipped += each.clipped;
+        whole.limited_frames += each.limited_frames;
+        whole.least_gain = std::min(whole.least_gain, each.least_gain);
+    }
+    return whole;
+}
+
 /// Everything is written before the first file gets its name.
-MaybeError finish(const RenderJob& job, const RenderOptions& options, const RenderStats& stats,
+MaybeError finish(const RenderJob& job, const RenderOptions& options, const std::vector<Piece>& pieces,
                   Outputs& outputs) {
     if (outputs.stats) {
-        if (auto error = outputs.stats->write(stats_json(stats))) return error;
+        if (auto error = outputs.stats->write(stats_json(pieces.front().stats))) return error;
         if (auto error = outputs.stats->flush()) return error;
     }
     if (!options.plot.empty()) {
-        const std::string title = file_name(job.midi) + ", " + options.preset;
+        const std::string title = title_of(job) + ", " + options.preset;
         if (auto error = plot_audio(outputs.plotted, options.rate_hz, title, options.plot)) return error;
     }
     if (outputs.stems) {
@@ -235,7 +289,30 @@ MaybeError finish(const RenderJob& job, const RenderOptions& options, const Rend
 }
 
 ScoreSettings score_settings(const RenderOptions& options) {
-    return {static_cast<double>(options.rate_hz), options.tail_s, options.silence_dbfs, options.limiter_dbfs};
+    return {static_cast<double>(options.rate_hz), options.tail_s, options.silence_dbfs, options.limiter_dbfs,
+            options.mono};
+}
+
+/// Appends the piece to what is written already. `most_frames`: of all pieces.
+MaybeError play_piece(const RenderJob& job, const RenderContext& context, std::uint64_t most_frames,
+                      const std::function<void(double fraction)>& progress, Piece& piece, Outputs& outputs,
+                      RenderedJob& result) {
+    const RenderOptions& options = context.options;
+    const auto instruments = load_instruments(piece.score, context.instruments, piece.stats);
+    if (!instruments) return instruments.error();
+    Ensemble ensemble = make_ensemble(piece.score, instruments.value(), !options.stems.empty(),
+                                      std::pow(10.0, options.gain_db / 20));
+    if (auto error = open_stems(job, context, most_frames, ensemble.stem_names, outputs)) return error;
+    add_notices(piece, ensemble, context, result);
+    SoundSink sink = sink_to(outputs, options);
+    sink.progress = progress;
+    const double written_cpu_s = outputs.cpu_s;
+    const auto rendered = render_score(ensemble, piece.score, score_settings(options), sink);
+    if (!rendered) return rendered.error();
+    piece.stats.score = rendered.value();
+    piece.stats.cpu_output_s = outputs.cpu_s - written_cpu_s;
+    describe_job(piece.midi, options, piece.score, ensemble, piece.stats);
+    return std::nullopt;
 }
 
 }  // namespace
@@ -244,29 +321,28 @@ Outcome<RenderedJob> render_job(const RenderJob& job, const RenderContext& conte
                                 const std::function<void(double fraction)>& progress) {
     const RenderOptions& options = context.options;
     RenderedJob result;
-    const auto score = load_score(job, context, result);
-    if (!score) return score.error();
-    const ScoreSettings settings = score_settings(options);
-    const std::uint64_t frames = most_frames(score.value(), settings);
+    auto loaded = load_pieces(job, context, result);
+    if (!loaded) return loaded.error();
+    std::vector<Piece>& pieces = loaded.value();
+    std::uint64_t frames = 0;
+    for (const Piece& piece : pieces) frames += most_frames(piece.score, score_settings(options));
     auto outputs = open_outputs(job, context, frames);
     if (!outputs) return outputs.error();
 
-    const auto instruments = load_instruments(score.value(), context.instruments, result.stats);
-    if (!instruments) return instruments.error();
-    Ensemble ensemble = make_ensemble(score.value(), instruments.value(), !options.stems.empty(),
-                                      std::pow(10.0, options.gain_db / 20));
-    if (auto error = open_stems(job, context, frames, ensemble.stem_names, outputs.value())) return *error;
-    add_notices(score.value(), ensemble, context, result);
-
-    const SoundSink sink = sink_to(outputs.value(), !options.plot.empty(), progress);
-    const auto rendered = render_score(ensemble, score.value(), settings, sink);
-    if (!rendered) return rendered.error();
-    result.stats.score = rendered.value();
-    result.stats.cpu_output_s = outputs.value().cpu_s;
-    describe_job(job.midi, options, score.value(), ensemble, result.stats);
-    if (auto error = finish(job, options, result.stats, outputs.value())) return *error;
-    add_level_messages(job, options, outputs.value(), result);
-    add_contact_messages(job, result);
+    const auto count = static_cast<double>(pieces.size());
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const auto so_far = [&progress, i, count](double fraction) {
+            progress((static_cast<double>(i) + fraction) / count);
+        };
+        if (auto error = play_piece(job, context, frames, so_far, pieces[i], outputs.value(), result))
+            return *error;
+    }
+    if (auto error = finish(job, options, pieces, outputs.value())) return *error;
+    add_level_messages(job, options, outputs.value(), whole_sound(pieces), result);
+    for (Piece& piece : pieces) {
+        add_contact_messages(piece, result);
+        result.stats.push_back(std::move(piece.stats));
+    }
     return result;
 }
 

@@ -1,4 +1,4 @@
-// One MIDI file on its way to its WAV file.
+// MIDI files on their way to a sound file.
 #pragma once
 
 #include <functional>
@@ -15,8 +15,8 @@
 namespace jawari::host {
 
 struct RenderJob {
-    std::string midi;  ///< a file; `-`: standard input
-    std::string out;   ///< a file; `-`: standard output
+    std::vector<std::string> midi;  ///< files, played one after the other; `-`: standard input
+    std::string out;                ///< a file; `-`: standard output
 };
 
 /// What all jobs of a run share.
@@ -28,7 +28,7 @@ struct RenderContext {
 };
 
 struct RenderedJob {
-    RenderStats stats;
+    std::vector<RenderStats> stats;     ///< of each MIDI file
     std::vector<std::string> messages;  ///< notices and warnings, a line each
 };
 

@@ -47,13 +47,14 @@ class SilenceDetector {
 class MixPath {
   public:
     MixPath(const ScoreSettings& settings, const SoundSink& sink, ScoreStatistics& statistics)
-        : sink_(sink), statistics_(statistics) {
+        : sink_(sink), statistics_(statistics), mono_(settings.mono) {
         if (settings.limiter_dbfs)
             limiter_ = make_limiter(factor(*settings.limiter_dbfs), settings.output_rate_hz);
     }
 
     MaybeError pass(std::vector<double>& left, std::vector<double>& right) {
         std::size_t skip = 0;
+        if (mono_) mix_down(left, right);
         if (limiter_) {
             const std::uint64_t before = limiter_->frames;
             const double started = thread_cpu_s();
@@ -76,19 +77,27 @@ class MixPath {
     }
 
   private:
+    static void mix_down(std::vector<double>& left, std::vector<double>& right) {
+        for (std::size_t n = 0; n < left.size(); ++n) left[n] = right[n] = (left[n] + right[n]) / 2;
+    }
+
+    void measure(std::span<const double> side) {
+        for (const double sample : side) {
+            statistics_.peak = std::max(statistics_.peak, std::abs(sample));
+            if (std::abs(sample) > 1) statistics_.clipped += 1;
+        }
+    }
+
     MaybeError write(std::span<const double> left, std::span<const double> right) {
         if (left.empty()) return std::nullopt;
-        for (const auto& side : {left, right}) {
-            for (const double sample : side) {
-                statistics_.peak = std::max(statistics_.peak, std::abs(sample));
-                if (std::abs(sample) > 1) statistics_.clipped += 1;
-            }
-        }
+        measure(left);
+        if (!mono_) measure(right);
         return sink_.mix(left, right);
     }
 
     const SoundSink& sink_;
     ScoreStatistics& statistics_;
+    bool mono_;
     std::optional<Limiter> limiter_;
 };
 

@@ -12,7 +12,8 @@
 
 namespace jawari::host {
 
-/// Receives every block in order. The mix may come later than the stems, but in the end as many frames.
+/// Receives every block in order. The mix may come later than the stems, but in the end as many frames; in
+/// mono both sides are the same.
 struct SoundSink {
     std::function<MaybeError(std::span<const double> left, std::span<const double> right)> mix;
     std::function<MaybeError(const std::vector<std::vector<double>>& stems)> stems;  ///< may be empty
@@ -24,6 +25,7 @@ struct ScoreSettings {
     std::optional<double> tail_s;  ///< nothing: until the sound has died away (options.h)
     double silence_dbfs = -90;
     std::optional<double> limiter_dbfs;
+    bool mono = false;  ///< both sides are their mean
 };
 
 struct ScoreStatistics {

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 
+#include "commands/render/chased_state.h"
 #include "midi/ignored.h"
 #include "midi/system_message.h"
 
@@ -27,6 +28,7 @@ struct Routed {
 struct Port {
     MidiInterpreter interpreter;
     std::array<std::optional<std::string>, midi_channel_count> presets;
+    ChasedState chased;
 };
 
 class ScoreMaker {
@@ -34,20 +36,25 @@ class ScoreMaker {
     ScoreMaker(const ScoreRules& rules, const MidiFile& file, Score& score)
         : rules_(rules), file_(file), score_(score) {}
 
+    /// In order of time; `frame` of the whole piece.
     void take(const MidiEvent& event, std::uint64_t frame) {
+        if (frame >= rules_.excerpt.end) return;
+        if (chasing_ && frame >= rules_.excerpt.begin) begin_excerpt();
+        const std::uint64_t heard = chasing_ ? 0 : frame - rules_.excerpt.begin;
         if (event.status != exclusive_status) {
             const ChannelMessage message{event.status, event.data1, event.data2};
-            apply(message, event.port, frame);
-            if (actions_.ignored) ignored_[ignored_kind(port_at(event.port).interpreter, message)] += 1;
+            apply(message, event.port, heard);
+            if (actions_.ignored) ignore(ignored_kind(port_at(event.port).interpreter, message));
             return;
         }
         const DecodedExclusive decoded = decode_exclusive(file_.exclusives[event.exclusive]);
-        for (const ChannelMessage& message : decoded.messages) apply(message, event.port, frame);
-        if (decoded.messages.empty()) ignored_["system exclusive: " + decoded.name] += 1;
+        for (const ChannelMessage& message : decoded.messages) apply(message, event.port, heard);
+        if (decoded.messages.empty()) ignore("system exclusive: " + decoded.name);
     }
 
     /// Notes go to their part; everything else to each part that has notes of the channel.
     void finish() {
+        if (chasing_) begin_excerpt();
         for (ScorePart& part : score_.parts) {
             for (const auto& [parameter, value] : rules_.parameters)
                 part.events.push_back({0, set_parameter(0, parameter, value, every_channel)});
@@ -74,10 +81,24 @@ class ScoreMaker {
     Port& port_at(int number) {
         auto& port = ports_[number];
         if (!port) {
-            port = std::make_unique<Port>(Port{make_interpreter(rules_.interpreter), {}});
+            port = std::make_unique<Port>(Port{make_interpreter(rules_.interpreter), {}, {}});
             port->presets.fill(choice(0, 0));
         }
         return *port;
+    }
+
+    void ignore(const std::string& what) {
+        if (!chasing_) ignored_[what] += 1;
+    }
+
+    /// What was set before is set at once; what is down stays silent.
+    void begin_excerpt() {
+        chasing_ = false;
+        for (const auto& [number, port] : ports_) {
+            for (const InstrumentEvent& event : port->chased.events())
+                routed_.push_back({{0, event}, number, silent});
+            score_.cut_notes += open_notes(port->interpreter);
+        }
     }
 
     void apply(const ChannelMessage& message, int number, std::uint64_t frame) {
@@ -85,6 +106,10 @@ class ScoreMaker {
         interpret(port.interpreter, message, actions_);
         if (actions_.program.asked) change_program(port);
         if (actions_.programs_reset) port.presets.fill(choice(0, 0));
+        if (chasing_) {
+            for (std::size_t i = 0; i < actions_.count; ++i) port.chased.add(actions_.events[i]);
+            return;
+        }
         for (std::size_t i = 0; i < actions_.count; ++i) {
             Routed routed{{frame, actions_.events[i]}, number, silent};
             if (routed.timed.event.type == InstrumentEventType::NoteOn) routed.part = part_of(port, routed);
@@ -93,7 +118,7 @@ class ScoreMaker {
     }
 
     void change_program(Port& port) {
-        score_.program_changes += 1;
+        score_.program_changes += chasing_ ? 0 : 1;
         const ProgramRequest& request = actions_.program;
         port.presets[static_cast<std::size_t>(request.channel)] = choice(request.bank, request.program);
     }
@@ -136,6 +161,7 @@ class ScoreMaker {
     const ScoreRules& rules_;
     const MidiFile& file_;
     Score& score_;
+    bool chasing_ = true;  ///< before the excerpt
     MidiActions actions_;
     std::map<int, std::unique_ptr<Port>> ports_;
     std::vector<Routed> routed_;
@@ -156,7 +182,9 @@ Score make_score(const MidiFile& file, std::uint32_t rate_hz, const ScoreRules& 
     for (const MidiEvent& event : file.events)
         maker.take(event, played_frame(file, event.time, rate_hz, rules.tempo));
     maker.finish();
-    score.end_frame = played_frame(file, file.end_time, rate_hz, rules.tempo);
+    score.whole_frames = played_frame(file, file.end_time, rate_hz, rules.tempo);
+    const Excerpt& excerpt = rules.excerpt;
+    score.end_frame = std::max(std::min(score.whole_frames, excerpt.end), excerpt.begin) - excerpt.begin;
     return score;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,7 +16,7 @@
 namespace jawari::host {
 
 struct TimedEvent {
-    std::uint64_t frame = 0;  ///< since the start of the file
+    std::uint64_t frame = 0;  ///< since the start of the excerpt
     InstrumentEvent event;    ///< its own frame is not set
 };
 
@@ -36,12 +37,21 @@ struct IgnoredKind {
     std::uint64_t count = 0;
 };
 
+/// What part of a piece is played [frames]. Messages before it change what they change without being heard;
+/// notes that begin before it are left out.
+struct Excerpt {
+    std::uint64_t begin = 0;
+    std::uint64_t end = std::numeric_limits<std::uint64_t>::max();
+};
+
 struct Score {
     std::vector<ScorePart> parts;      ///< in order of their first note
     std::vector<IgnoredKind> ignored;  ///< by name
-    std::uint64_t end_frame = 0;       ///< of the last event or end of track
+    std::uint64_t end_frame = 0;       ///< of the last event or end of track, or of the excerpt
+    std::uint64_t whole_frames = 0;    ///< end of the piece, if all of it were played
     std::uint64_t silent_notes = 0;    ///< of drums, of programs without a preset, and beside guitar mode
     std::uint64_t muted_notes = 0;     ///< left out as asked for
+    std::uint64_t cut_notes = 0;       ///< down where the excerpt begins, and not played
     std::uint64_t program_changes = 0;
 };
 
@@ -56,6 +66,7 @@ struct ScoreRules {
     std::string preset;                                      ///< of the one part
     double tempo = 1;                                        ///< times as fast as written
     unsigned muted = 0;                                      ///< bit c: notes of channel c are left out
+    Excerpt excerpt;                                         ///< frames of the piece at its tempo
     std::vector<std::pair<ParameterId, double>> parameters;  ///< set at the start, in each parameter's unit
 };
 

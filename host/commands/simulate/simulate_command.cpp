@@ -72,7 +72,7 @@ void add_settings(CLI::App& app, Overrides& overrides) {
 }
 
 void add_files(CLI::App& app, SimulateOptions& options) {
-    app.add_option("--out", options.out,
+    app.add_option("-o,--out", options.out,
                    "Probes: FILE.csv, FILE.h5 (with contacts and energies), FILE.wav; - for CSV")
         ->type_name("FILE")
         ->check(CLI::Validator(
@@ -128,9 +128,10 @@ void add_skipping(CLI::App& app, Skipping& skipping) {
         ->expected(1)
         ->check(CLI::Validator(
             [](const std::string& what) {
+                const std::vector<std::string> words{"all", "flight", "certificate", "near", "lazy", "sleep"};
                 return what == "all" || skips.contains(what)
                            ? std::string()
-                           : refusal(what, "all, flight, certificate, near, lazy, sleep");
+                           : refusal(what + did_you_mean(what, words), join(words));
             },
             ""));
 }

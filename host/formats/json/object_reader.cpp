@@ -68,7 +68,7 @@ ObjectReader::ObjectReader(const Value& value, std::string path, std::vector<std
         if (each.key == "comment" || std::find(allowed_.begin(), allowed_.end(), each.key) != allowed_.end())
             continue;
         const std::vector<std::string> words(allowed_.begin(), allowed_.end());
-        problems_.add(path_of(each.key), "unknown key", join(words));
+        problems_.add(path_of(each.key), "unknown key" + did_you_mean(each.key, words), join(words));
         return;
     }
 }

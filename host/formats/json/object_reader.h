@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/suggestion.h"
 #include "formats/json/path.h"
 #include "formats/json/value.h"
 #include "jawari/result.h"
@@ -76,14 +77,19 @@ class ObjectReader {
     template <class T>
     T choice(std::string_view key, std::initializer_list<Choice<T>> choices) {
         std::string words;
-        for (const auto& each : choices)
+        std::vector<std::string> known;
+        for (const auto& each : choices) {
             words += (words.empty() ? "\"" : ", \"") + std::string(each.word) + "\"";
+            known.emplace_back(each.word);
+        }
         const Value* value = require(key, words);
         if (value == nullptr) return choices.begin()->value;
-        if (const auto* word = std::get_if<std::string>(&value->content))
-            for (const auto& each : choices)
-                if (each.word == *word) return each.value;
-        problems_.add(path_of(key), describe(*value), words);
+        const auto* word = std::get_if<std::string>(&value->content);
+        for (const auto& each : choices)
+            if (word != nullptr && each.word == *word) return each.value;
+        problems_.add(path_of(key),
+                      describe(*value) + (word == nullptr ? std::string() : did_you_mean(*word, known)),
+                      words);
         return choices.begin()->value;
     }
     template <class T>

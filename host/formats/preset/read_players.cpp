@@ -48,7 +48,8 @@ Kind kind_of(const Value& value, const std::string& path, Problems& problems) {
     if (word != nullptr && *word == "hammer") return Kind::Hammer;
     if (word != nullptr && *word == "tangent") return Kind::Tangent;
     if (word == nullptr || *word != "finger") {
-        problems.add(json::member(path, "kind"), kind == nullptr ? "missing" : json::describe(*kind),
+        const std::string hint = word == nullptr ? "" : did_you_mean(*word, {"finger", "hammer", "tangent"});
+        problems.add(json::member(path, "kind"), kind == nullptr ? "missing" : json::describe(*kind) + hint,
                      R"("finger", "hammer", "tangent")");
     }
     return Kind::Finger;

@@ -5,6 +5,7 @@
 
 #include "base/builtin.h"
 #include "base/input_file.h"
+#include "base/suggestion.h"
 #include "base/text.h"
 #include "formats/json/object_reader.h"
 #include "formats/json/parse.h"
@@ -67,8 +68,9 @@ void read_document(const json::Value& document, Scene& scene, json::Problems& pr
 }
 
 Error unknown_scene(const std::string& argument) {
-    return {ErrorKind::File, argument + ": no such file, and no built-in scene of that name (built-in: " +
-                                 join(builtin_scene_names()) + ")"};
+    const std::vector<std::string> names = builtin_scene_names();
+    return {ErrorKind::File, argument + ": no such file, and no built-in scene of that name" +
+                                 did_you_mean(argument, names) + " (built-in: " + join(names) + ")"};
 }
 
 }  // namespace

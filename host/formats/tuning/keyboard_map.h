@@ -7,13 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/tuning/key_frequencies.h"
 #include "jawari/result.h"
 
 namespace jawari::host {
-
-/// Frequencies that a key can have [Hz]: what is heard.
-inline constexpr double lowest_key_hz = 1;
-inline constexpr double highest_key_hz = 20000;
 
 /// Defaults: what holds without a file. Degree 0 on middle C at its pitch in equal temperament, a degree a
 /// key.

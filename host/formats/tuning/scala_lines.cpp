@@ -15,16 +15,28 @@ constexpr std::size_t most_digits = 18;  // fit 64 bits
 
 }  // namespace
 
-std::vector<ScalaLine> scala_lines(std::string_view text) {
+std::vector<ScalaLine> text_lines(std::string_view text) {
     if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
     std::vector<ScalaLine> lines;
     for (std::size_t number = 1; !text.empty(); ++number) {
         const std::size_t end = text.find_first_of("\r\n");
         const std::string_view line = text.substr(0, end);
-        if (!line.starts_with('!')) lines.push_back({number, line});
+        lines.push_back({number, line});
         if (end == std::string_view::npos) break;
         text.remove_prefix(end + (text.substr(end).starts_with("\r\n") ? 2 : 1));
     }
+    return lines;
+}
+
+std::vector<ScalaLine> scala_lines(std::string_view text) {
+    std::vector<ScalaLine> lines = text_lines(text);
+    std::erase_if(lines, [](const ScalaLine& line) { return line.text.starts_with('!'); });
+    return lines;
+}
+
+std::vector<ScalaLine> scala_comments(std::string_view text) {
+    std::vector<ScalaLine> lines = text_lines(text);
+    std::erase_if(lines, [](const ScalaLine& line) { return !line.text.starts_with('!'); });
     return lines;
 }
 

@@ -1,4 +1,4 @@
-// The lines of Scala's text files (.scl, .kbm): comments left out, numbered as an editor numbers them.
+// The lines of Scala's text files (.scl, .kbm) and of similar ones, numbered as an editor numbers them.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +16,14 @@ struct ScalaLine {
     std::string_view text;   ///< without its end
 };
 
-/// Lines that begin with an exclamation mark are comments. Ends of lines: LF, CR LF or CR. The text must
-/// outlive the lines.
+/// Ends of lines: LF, CR LF or CR. The text must outlive the lines.
+std::vector<ScalaLine> text_lines(std::string_view text);
+
+/// Without those that begin with an exclamation mark: they are comments.
 std::vector<ScalaLine> scala_lines(std::string_view text);
+
+/// The comments alone.
+std::vector<ScalaLine> scala_comments(std::string_view text);
 
 /// The text up to the first space or tab, after leading ones: what follows a value is ignored.
 std::string_view first_word(std::string_view text);

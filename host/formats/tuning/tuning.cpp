@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "base/input_file.h"
+#include "base/text.h"
+#include "formats/tuning/tun_file.h"
 
 namespace jawari::host {
 
@@ -26,6 +28,10 @@ std::optional<double> key_cents(const Scale& scale, const KeyboardMap& map, int 
     const auto octave_degree =
         map.formal_octave == 0 ? static_cast<long long>(scale.cents.size()) : map.formal_octave;
     return repetition * degree_cents(scale, octave_degree) + degree_cents(scale, *degree);
+}
+
+bool is_tun(const std::string& path) {
+    return lower_case(path).ends_with(".tun");
 }
 
 template <class T>
@@ -62,16 +68,44 @@ Result<KeyFrequencies> tune(const Scale& scale, const KeyboardMap& map) {
     return frequencies;
 }
 
+Result<KeyFrequencies> tune(const Scale& scale, const AbletonLines& lines) {
+    const KeyboardMap map = ableton_map(scale, lines);
+    auto tuned = tune(scale, map);
+    if (!tuned) return tuned.failure();
+    for (std::size_t key = 0; key < midi_keys; ++key) {
+        double& hz = tuned.value()[key];
+        const auto note = static_cast<long long>(key) - map.middle_key;
+        const bool below = hz < lines.lowest_hz || (lines.lowest_note && note < *lines.lowest_note);
+        const bool above = hz > lines.highest_hz || (lines.highest_note && note > *lines.highest_note);
+        if (below || above) hz = std::numeric_limits<double>::quiet_NaN();
+    }
+    return tuned;
+}
+
+namespace {
+
+/// Where a scale lies without a keyboard map.
+Result<KeyFrequencies> parse_scale_alone(std::string_view text) {
+    const auto scale = parse_scale(text);
+    if (!scale) return scale.failure();
+    const auto lines = parse_ableton_lines(text, scale.value());
+    if (!lines) return lines.failure();
+    return tune(scale.value(), lines.value());
+}
+
+}  // namespace
+
 Outcome<KeyFrequencies> load_tuning(const std::string& scale, const std::string& keyboard_map) {
+    if (is_tun(scale) && !keyboard_map.empty())
+        return usage_error("--keyboard-map", keyboard_map,
+                           "none with a .tun file, which has the pitch of each key");
+    if (keyboard_map.empty())
+        return load<KeyFrequencies>(scale, is_tun(scale) ? parse_tun : parse_scale_alone);
     const auto notes = load<Scale>(scale, parse_scale);
     if (!notes) return notes.error();
-    KeyboardMap map;
-    if (!keyboard_map.empty()) {
-        auto loaded = load<KeyboardMap>(keyboard_map, parse_keyboard_map);
-        if (!loaded) return loaded.error();
-        map = std::move(loaded.value());
-    }
-    auto frequencies = tune(notes.value(), map);
+    const auto map = load<KeyboardMap>(keyboard_map, parse_keyboard_map);
+    if (!map) return map.error();
+    auto frequencies = tune(notes.value(), map.value());
     if (!frequencies) return invalid_input(keyboard_map, frequencies.failure());
     return frequencies.value();
 }

@@ -1,20 +1,15 @@
 // A scale on a keyboard: the frequency of each of the 128 MIDI keys.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <string>
 
 #include "base/error.h"
+#include "formats/tuning/ableton.h"
+#include "formats/tuning/key_frequencies.h"
 #include "formats/tuning/keyboard_map.h"
 #include "formats/tuning/scale.h"
 
 namespace jawari::host {
-
-inline constexpr std::size_t midi_keys = 128;
-
-/// Frequencies in Hz; NaN: the key is silent.
-using KeyFrequencies = std::array<double, midi_keys>;
 
 /// Key k plays the degree that the map gives to (k - middle key) modulo its size, raised by as many formal
 /// octaves as the pattern has repeated; a linear map (size 0) plays degree k - middle key. The reference
@@ -23,7 +18,11 @@ using KeyFrequencies = std::array<double, midi_keys>;
 /// lie outside lowest_key_hz to highest_key_hz are silent. Fails if the reference key is silent.
 Result<KeyFrequencies> tune(const Scale& scale, const KeyboardMap& map);
 
-/// Reads both files; an empty `keyboard_map` path stands for the default map. Messages name file and line.
+/// As the lines say that Ableton adds to a scale: where its notes lie and which of them there are.
+Result<KeyFrequencies> tune(const Scale& scale, const AbletonLines& lines);
+
+/// `scale`: a Scala scale, with what Ableton adds to it, or a .tun file. An empty `keyboard_map` path stands
+/// for the default map; .tun files take none. Messages name file and line.
 Outcome<KeyFrequencies> load_tuning(const std::string& scale, const std::string& keyboard_map);
 
 }  // namespace jawari::host

@@ -37,6 +37,18 @@ TEST(Text, SeventeenDigitsAreThoseOfTheCLibrary) {
     }
 }
 
+TEST(Text, TimesAreSecondsOrHaveColons) {
+    EXPECT_EQ(parse_time("0"), 0);
+    EXPECT_EQ(parse_time("90.5"), 90.5);
+    EXPECT_EQ(parse_time("1:30.5"), 90.5);
+    EXPECT_EQ(parse_time("0:05"), 5);
+    EXPECT_EQ(parse_time("90:00"), 5400);
+    EXPECT_EQ(parse_time("1:02:03.25"), 3723.25);
+    for (const char* bad : {"", ":", "1:", ":30", "-1", "-0", "nan", "inf", "1:60", "1:60:00", "1.5:00",
+                            "1:-5", "1:2:3:4", "1: 30", "1h", "1::2", "inf:00"})
+        EXPECT_FALSE(parse_time(bad)) << bad;
+}
+
 TEST(Text, RatesAreWrittenWithoutExponent) {
     EXPECT_EQ(shortest(2e6), "2000000");
     EXPECT_EQ(shortest(0.0863), "0.0863");

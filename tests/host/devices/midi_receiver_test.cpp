@@ -41,7 +41,9 @@ TEST(ChannelMessageFromDriver, LeavesOutTheRest) {
 TEST(SystemMessagesFromDriver, ResetsAndExclusives) {
     const auto kinds = [](const std::vector<unsigned char>& bytes) {
         std::vector<SystemKind> all;
-        for (const ChannelMessage& message : system_messages(bytes))
+        const auto decoded = system_messages(bytes);
+        if (!decoded) return all;
+        for (const ChannelMessage& message : decoded->messages)
             all.push_back(static_cast<SystemKind>(message.status));
         return all;
     };
@@ -52,6 +54,10 @@ TEST(SystemMessagesFromDriver, ResetsAndExclusives) {
     for (const auto& bytes : std::vector<std::vector<unsigned char>>{
              {}, {0xF0}, {0xFE}, {0xF8}, {0xF0, 0xF7}, {0xF0, 0x7E, 0x7F, 0x09, 0x01}, {0x90, 60, 1}})
         EXPECT_TRUE(kinds(bytes).empty());
+    EXPECT_FALSE(system_messages(std::vector<unsigned char>{0xFE}));
+    // GS reverb: nothing that strings can do, but it has a name to be counted by.
+    const std::vector<unsigned char> reverb{0xF0, 0x41, 0x10, 0x42, 0x12, 0x40, 0x01, 0x30, 0x04, 0x0B, 0xF7};
+    EXPECT_EQ(system_messages(reverb)->name, "GS reverb");
 }
 
 TEST(LastingName, LeavesOutNumbersThatChangeWhenADeviceIsPluggedInAgain) {

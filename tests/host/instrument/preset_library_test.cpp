@@ -113,7 +113,8 @@ TEST_F(PresetLibrary, MissingPresetsNameTheOthers) {
     const auto missing = load_preset("zithe");
     ASSERT_FALSE(missing.ok());
     EXPECT_EQ(missing.error().kind, ErrorKind::File);
-    EXPECT_NE(missing.error().message.find("zithe: no such file, and no preset of that name (presets: "),
+    EXPECT_NE(missing.error().message.find(
+                  "zithe: no such file, and no preset of that name; did you mean \"zither\"? (presets: "),
               std::string::npos);
     EXPECT_NE(missing.error().message.find("zither)"), std::string::npos);
 }

@@ -118,6 +118,45 @@ TEST(MasterTuning, IsPartOfEveryBendAndKey) {
     EXPECT_NEAR(*value_of(player.bend(1, 8192), Type::Bend, 0), -0.6, 1e-4);
 }
 
+TEST(PortamentoControl, TheNextNoteSlidesFromTheGivenKeyAndEndsIt) {
+    for (const bool mono : {false, true}) {
+        Player player;
+        if (mono) player.control(1, 126, 1);
+        player.control(1, 5, 64);  // half a second, and the switch is off
+        player.send(0x90, 60, 64);
+        EXPECT_TRUE(player.control(1, 84, 60).empty());
+        EXPECT_FALSE(player.actions.ignored);
+        const auto events = player.send(0x90, 64, 64);
+        std::vector<Type> types;
+        for (const InstrumentEvent& event : events) types.push_back(event.type);
+        ASSERT_EQ(types, (std::vector<Type>{Type::SetParameter, Type::SetParameter, Type::NoteOn,
+                                            Type::NoteOff, Type::SetParameter, Type::SetParameter}));
+        EXPECT_EQ(events[0].parameter, ParameterId::Legato);
+        EXPECT_EQ(events[0].value, 1);
+        EXPECT_EQ(events[1].parameter, ParameterId::SlideTime);
+        EXPECT_NEAR(events[1].value, 0.5, 1e-9);
+        EXPECT_EQ(events[2].key, 64);
+        EXPECT_EQ(events[3].key, 60);
+        EXPECT_EQ(events[4].value, 0);
+        player.send(0x80, 64, 64);
+        EXPECT_EQ(player.send(0x90, 67, 64).size(), 1U);  // of one note alone
+    }
+}
+
+TEST(PortamentoControl, DoesNothingFromAKeyThatIsNotDown) {
+    Player player;
+    player.send(0x90, 60, 64);
+    player.control(1, 84, 61);
+    EXPECT_TRUE(player.actions.ignored);
+    EXPECT_EQ(player.send(0x90, 64, 64).size(), 1U);
+    player.control(1, 84, 64);
+    player.send(0x80, 64, 64);
+    EXPECT_EQ(player.send(0x90, 65, 64).size(), 1U);
+    player.control(1, 84, 65);
+    player.control(1, 121, 0);
+    EXPECT_EQ(player.send(0x90, 66, 64).size(), 1U);
+}
+
 TEST(TuningStandard, KeysSoundWhereTheyAreTuned) {
     Player player;
     // Key 60 at 60.5, now; key 61 at 63 exactly.

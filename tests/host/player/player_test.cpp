@@ -31,6 +31,28 @@ TEST(LivePlayer, AMessageSoundsOneBlockAfterItCameIn) {
     EXPECT_EQ(first - sound.left.begin(), 10 * 128 + 90);
 }
 
+TEST(LivePlayer, IgnoredMessagesAreCountedByKind) {
+    const SharedInstrument instrument = small_live_instrument("bass-fretted");
+    LivePlayer player(live_settings());
+    MidiPort& port = *player.add_port();
+    ASSERT_TRUE(player.publish(instrument));
+    for (const ChannelMessage& message :
+         {ChannelMessage{0xB0, 91, 40}, ChannelMessage{0xB3, 91, 41}, ChannelMessage{0xB0, 7, 100},
+          ChannelMessage{0xB0, 84, 50}, ChannelMessage{0xB0, 99, 1}, ChannelMessage{0xB0, 98, 8},
+          ChannelMessage{0xB0, 6, 64}, ChannelMessage{0xB1, 101, 0}, ChannelMessage{0xB1, 100, 2},
+          ChannelMessage{0xB1, 6, 127}, ChannelMessage{0x91, 127, 64}})
+        port.push({message, 0});
+    LiveSound sound;
+    sound.add(player, 256, start_ns, rate_hz);
+    const LiveIgnored ignored = player.statistics().ignored;
+    EXPECT_EQ(ignored.controllers[91], 2U);
+    EXPECT_EQ(ignored.controllers[84], 1U);
+    EXPECT_EQ(ignored.controllers[7], 0U);
+    EXPECT_EQ(ignored.data, 1U);
+    EXPECT_EQ(ignored.moved_notes, 1U);
+    EXPECT_EQ(ignored.unplayed_notes, 0U);
+}
+
 TEST(LivePlayer, OldInstrumentsAreFreedByTheControlThread) {
     struct Watch {
         std::thread::id freed_by;

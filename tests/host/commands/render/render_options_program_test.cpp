@@ -118,6 +118,26 @@ TEST(RenderOptions, OfSeveralFilesTheGoodOnesAreRendered) {
     EXPECT_FALSE(std::filesystem::exists(folder.file("out/bad.wav")));
 }
 
+TEST(RenderOptions, PortamentoControlSlidesOnTheString) {
+    const auto sound = [](const std::vector<Bytes>& between) {
+        Bytes track;
+        append_event(track, 0, {0xB0, 5, 64});
+        append_event(track, 0, {0x90, 40, 90});
+        for (const Bytes& message : between) append_event(track, 0, message);
+        append_event(track, 300, {0x90, 43, 90});
+        append_event(track, 900, {0x80, 43, 64});
+        append_event(track, 0, {0x80, 40, 64});
+        append_event(track, 0, end_of_track);
+        return as_text(file_with_track(track, 500));
+    };
+    const TemporaryFolder folder;
+    EXPECT_EQ(render(folder, sound({{0xB0, 84, 40}}), bass).stats["legato_notes"], 1);
+    EXPECT_EQ(render(folder, sound({}), bass).stats["legato_notes"], 0);
+    const auto none = render(folder, sound({{0xB0, 84, 41}}), bass);
+    EXPECT_EQ(none.stats["legato_notes"], 0);
+    EXPECT_EQ(none.stats["ignored"][0]["what"], "controller 84 (portamento from)");
+}
+
 TEST(RenderOptions, TheLimiterKeepsItsCeilingAndSaysSo) {
     const TemporaryFolder folder;
     const auto loud = render(folder, notes({28, 33, 38}), with_bass({"--gain", "20", "--limiter", "-3"}));
@@ -215,7 +235,7 @@ TEST(RenderOptions, EveryFailureIsOneLineAndLeavesNothing) {
         {{"--mute", "17"}, 2, "--mute: 17 (allowed: a whole number, 1 to 16"},
         {{"--tempo", "0"}, 2, "--tempo: 0 (allowed: 10 to 1000"},
         {{"--plot", folder.file("p.pdf")}, 2, "p.pdf (allowed: a name that ends in .svg or .png)"},
-        {{good}, 2, "--out"}};
+        {{good, "--stats", folder.file("s.json")}, 2, "s.json (allowed: only with one MIDI file)"}};
     for (const Refusal& refusal : refusals) {
         std::vector<std::string> arguments{"render",       good, "--preset",
                                            "bass-fretted", "-o", folder.file("o.wav")};

@@ -58,6 +58,84 @@ TEST(Score, OnePartTakesAllChannels) {
     EXPECT_EQ(score.program_changes, 1U);
 }
 
+/// Program, controllers and a bend; a note from 100 to 400 ms, one from 300 to 500 ms, one from 600 ms on.
+MidiFile file_to_cut() {
+    return file_of({{0, {0xC0, 9}},
+                    {0, {0xB0, 7, 100}},
+                    {50, {0xB0, 7, 50}},
+                    {0, {0xE0, 0, 96}},
+                    {50, {0x90, 60, 100}},
+                    {200, {0x90, 62, 100}},
+                    {100, {0x80, 60, 64}},
+                    {100, {0x80, 62, 64}},
+                    {100, {0xC0, 10}},
+                    {0, {0x90, 64, 100}},
+                    {400, {0x80, 64, 64}}});
+}
+
+TEST(Score, AnExcerptHasTheSettingsOfWhatComesBeforeButNotItsNotes) {
+    ScoreRules rules = by_program();
+    rules.excerpt = {350 * 48, 700 * 48};
+    const Score score = make_score(file_to_cut(), 48000, rules);
+    ASSERT_EQ(score.parts.size(), 1U);
+    EXPECT_EQ(score.parts[0].preset, "preset 0/10");
+    EXPECT_EQ(score.parts[0].notes, 1U);
+    EXPECT_EQ(score.cut_notes, 2U);
+    EXPECT_EQ(score.program_changes, 1U);
+    EXPECT_EQ(score.end_frame, 350U * 48);
+    EXPECT_EQ(score.whole_frames, 1000U * 48);
+    std::vector<double> volumes;
+    for (const TimedEvent& timed : score.parts[0].events) {
+        if (timed.event.type == Type::NoteOn) {
+            EXPECT_EQ(timed.frame, 250U * 48);
+        }
+        if (timed.event.type == Type::Bend) {
+            EXPECT_NEAR(timed.event.value, 1, 1e-3);
+        }
+        if (timed.event.type == Type::SetParameter) volumes.push_back(timed.event.value);
+    }
+    EXPECT_EQ(count(score.parts[0], Type::Bend), 1U);
+    EXPECT_EQ(volumes.size(), 1U);
+}
+
+TEST(Score, AnExcerptPlaysTheProgramThatWasChosenBeforeIt) {
+    ScoreRules rules = by_program();
+    rules.excerpt.begin = 200 * 48;
+    const Score score = make_score(file_to_cut(), 48000, rules);
+    ASSERT_EQ(score.parts.size(), 2U);
+    EXPECT_EQ(score.parts[0].preset, "preset 0/9");
+    EXPECT_EQ(score.cut_notes, 1U);
+    EXPECT_EQ(score.end_frame, 800U * 48);
+}
+
+TEST(Score, ANoteAtTheBeginningOfAnExcerptIsInItAndOneAtItsEndIsNot) {
+    ScoreRules rules = by_program();
+    rules.excerpt = {300 * 48, 600 * 48};
+    const Score score = make_score(file_to_cut(), 48000, rules);
+    ASSERT_EQ(score.parts.size(), 1U);
+    EXPECT_EQ(score.parts[0].notes, 1U);
+    for (const TimedEvent& timed : score.parts[0].events)
+        if (timed.event.type == Type::NoteOn) {
+            EXPECT_EQ(timed.event.key, 62);
+        }
+}
+
+TEST(Score, WhatIsIgnoredOutsideAnExcerptIsNotCounted) {
+    const MidiFile file = file_of({{0, {0xB0, 91, 1}},
+                                   {0, {0x99, 36, 100}},
+                                   {500, {0xB0, 91, 2}},
+                                   {0, {0x99, 36, 100}},
+                                   {500, {0xB0, 91, 3}},
+                                   {0, {0x99, 36, 100}}});
+    ScoreRules rules = by_program();
+    rules.excerpt = {400 * 48, 600 * 48};
+    const Score score = make_score(file, 48000, rules);
+    ASSERT_EQ(score.ignored.size(), 1U);
+    EXPECT_EQ(score.ignored[0].count, 1U);
+    EXPECT_EQ(score.silent_notes, 1U);
+    EXPECT_TRUE(score.parts.empty());
+}
+
 TEST(Score, AChannelIsAPartForEachOfItsPrograms) {
     const Score score = make_score(file_of({{0, {0xC0, 5}},
                                             {0, {0x90, 60, 100}},

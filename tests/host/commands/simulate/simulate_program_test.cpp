@@ -79,7 +79,7 @@ TEST(Simulate, BadSceneFilesAreOneLineAndExitCode3) {
         {"missing key", replaced(valid, "\"length_m\": 0.8,", ""),
          ": strings[0].length_m: missing (allowed: "},
         {"unknown key", replaced(valid, "length_m", "lenght_m"),
-         ": strings[0].lenght_m: unknown key (allowed: name, length_m, "},
+         ": strings[0].lenght_m: unknown key; did you mean \"length_m\"? (allowed: name, length_m, "},
         {"wrong type", replaced(valid, "0.005", "\"thin\""),
          ": strings[0].linear_density_kg_per_m: \"thin\" (allowed: "},
         {"not a number", replaced(valid, "0.005", "NaN"), ":12:"},

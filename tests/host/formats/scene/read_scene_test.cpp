@@ -204,7 +204,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"\"duration_s\": 0.01", "\"duration_s\": -1",
               "duration_s: -1 (allowed: a number from 0 to 86400)"},
         Wrong{"duration_s", "duration",
-              "duration: unknown key (allowed: schema, duration_s, output_rate_hz, contact_rate_hz, scheme, "
+              "duration: unknown key; did you mean \"duration_s\"? (allowed: schema, duration_s, "
+              "output_rate_hz, contact_rate_hz, scheme, "
               "theta, law, "
               "strings)"},
         Wrong{": 8000,", ": 0,", "output_rate_hz: 0 (allowed: a number from 1 to 1000000000)"},

@@ -1,0 +1,17 @@
+// AnaMark tuning files (.tun), versions 0 to 2: the pitch of each key. Version 2: M. Henning, "Specifications
+// AnaMark tuning file format", 2009.
+#pragma once
+
+#include <string_view>
+
+#include "formats/tuning/key_frequencies.h"
+#include "jawari/result.h"
+
+namespace jawari::host {
+
+/// [Exact Tuning] if it has notes, [Tuning] otherwise. Files that have neither but formulas ([Functional
+/// Tuning]), keys that play other notes ([Mapping]) or several scales are refused. Failure::place is the
+/// line.
+Result<KeyFrequencies> parse_tun(std::string_view text);
+
+}  // namespace jawari::host
