@@ -52,6 +52,7 @@ PURPOSE = {
     "host/formats/preset": "preset files",
     "host/instrument": "preset library, compiled instruments, limiter",
     "host/midi": "MIDI bytes to instrument events",
+    "host/stage": "the core of playing: events with frames in, samples out",
     "host/player": "live playing without a device: threads, queues",
     "host/devices": "sound cards, MIDI ports",
     "host/plot": "pictures by gnuplot",
