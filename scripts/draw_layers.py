@@ -53,6 +53,8 @@ PURPOSE = {
     "host/instrument": "preset library, compiled instruments, limiter",
     "host/midi": "MIDI bytes to instrument events",
     "host/stage": "the core of playing: events with frames in, samples out",
+    "host/plugin/core": "one instance of the plugin: parameters, state, blocks",
+    "host/plugin/clap": "the plugin for CLAP hosts",
     "host/player": "live playing without a device: threads, queues",
     "host/devices": "sound cards, MIDI ports",
     "host/plot": "pictures by gnuplot",

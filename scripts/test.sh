@@ -93,10 +93,10 @@ if $full; then
     stage "lint" scripts/lint.sh
     stage "other instruction sets" scripts/check_neon.sh
     # Oracles, soaks and pitches check numbers, which the release run has done; here only memory and threads are at stake.
-    stage "build (asan-ubsan)" build asan-ubsan jawari engine_tests host_tests thread_tests rivals_tests play_tests \
-        stress_tests jawari_fuzzers &&
+    stage "build (asan-ubsan)" build asan-ubsan jawari engine_tests host_tests thread_tests plugin_tests rivals_tests \
+        play_tests stress_tests jawari_fuzzers &&
         tests asan-ubsan -LE 'peers|presets|examples|live' -E RenderPitch && stage "fuzzing" fuzz
-    stage "build (tsan)" build tsan jawari thread_tests && tests tsan -L threads
+    stage "build (tsan)" build tsan jawari thread_tests plugin_tests && tests tsan -L 'threads|plugin'
 fi
 
 printf '%s\n' "${failures[@]}"
