@@ -48,5 +48,5 @@ check "NEON, engine" "${neon[@]}" -Iengine/src
 "${neon[@]}" -Iengine/src -c engine/src/string/kernels/mode_run.cpp -o "$units/mode_run.o"
 nm -C "$units/mode_run.o" | grep -q 'N_NEON::run_modes' || { echo "check_neon.sh: no NEON kernels" >&2; exit 1; }
 rm "$units"/*.cpp
-make_units host/base host/formats host/instrument host/midi host/player
+make_units host/base host/formats host/instrument host/midi host/stage host/player host/plugin/core
 check "NEON, player" "${neon[@]}" -Ihost

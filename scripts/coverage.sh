@@ -14,7 +14,7 @@ run=true
 host=ON
 build=build/coverage
 folders=(engine host)
-targets=(jawari engine_tests host_tests thread_tests play_tests stress_tests midi_sender machine_gaps jawari_fuzzers)
+targets=(jawari engine_tests host_tests thread_tests plugin_tests play_tests stress_tests midi_sender machine_gaps jawari_fuzzers)
 for argument in "$@"; do
     case "$argument" in
         --engine) host=OFF build=build/coverage-engine folders=(engine) targets=(engine_tests) ;;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what the program needs, builds it, and renders the demo pieces and a plucked string to out/.
+# Installs what the program needs, builds it and the plugin, and renders the demo pieces and a plucked string to out/.
 # Usage: scripts/demo.sh
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
@@ -8,6 +8,11 @@ scripts/setup.sh
 # The folder of scripts/test.sh, so that it finds the program built; there without tests, unless they were asked for before.
 [[ -e build/release/build.ninja ]] || cmake --preset release -DJAWARI_BUILD_TESTS=OFF -DJAWARI_BUILD_BENCHMARKS=OFF
 cmake --build --preset release --parallel "$(nproc)" --target jawari
+plugin=
+if grep -q '^JAWARI_BUILD_PLUGINS:BOOL=ON' build/release/CMakeCache.txt; then
+    cmake --build --preset release --parallel "$(nproc)" --target jawari_clap
+    plugin=build/release/plugins/jawari.clap
+fi
 
 jawari=build/release/bin/jawari
 mkdir -p out
@@ -21,4 +26,5 @@ echo
 echo "Listen to: $PWD/out/demo.wav   presets/demo/slap.mid on the preset bass-fretted"
 echo "Its sound: $PWD/out/demo.png   waveform and spectrogram"
 echo "More:      $PWD/out/*.wav      a piece for each kind of instrument (docs/presets.md)"
+[[ -z $plugin ]] || echo "In a DAW:  $PWD/$plugin   a CLAP plugin; cmake --install build/release --component plugin-user"
 echo "A string:  $PWD/out/bass.png   the scene lab/bass: string over its frets, probe, when which fret is struck"

@@ -36,6 +36,7 @@ program      libjack-jackd2-dev      the JACK that the two are used with here (t
 program      libedit-dev             play: shell
 program      liblo-dev               play: Open Sound Control
 program      python3                 names of the demo pieces
+program?     dpf-source              headers of CLAP: the plugin is not built
 test         git                     which files are tracked
 test         libgtest-dev            GoogleTest
 test         libbenchmark-dev        Google Benchmark

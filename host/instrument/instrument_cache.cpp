@@ -10,22 +10,50 @@
 
 namespace jawari::host {
 
-Outcome<SharedInstrument> load_and_compile(const std::string& name, const InstrumentSettings& settings) {
-    auto preset = load_with(name, settings);
-    if (!preset) return preset.error();
+namespace {
+
+void apply(const InstrumentSettings& settings, InstrumentDescription& instrument) {
+    instrument.quality = at_quality(instrument, settings.quality);
+    if (!settings.tuning) return;
+    instrument.note_frequency_hz.assign(settings.tuning->begin(), settings.tuning->end());
+    instrument.tuning_moves_frets = settings.move_frets;
+}
+
+/// `preset`: with quality and tuning.
+Outcome<SharedInstrument> compile_as_it_is(Preset preset, const InstrumentSettings& settings) {
     const double started = thread_cpu_s();
-    auto model = compile_instrument(preset.value().instrument, settings.output_rate_hz);
-    if (!model) return invalid_input(preset.value().file, model.failure());
+    auto model = compile_instrument(preset.instrument, settings.output_rate_hz);
+    if (!model) return invalid_input(preset.file, model.failure());
     if (settings.lower_qualities) {
-        const auto lower = live_qualities(preset.value().instrument.quality, settings.output_rate_hz);
-        if (auto failure = add_qualities(model.value(), preset.value().instrument, lower))
-            return invalid_input(preset.value().file, *failure);
+        const auto lower = live_qualities(preset.instrument.quality, settings.output_rate_hz);
+        if (auto failure = add_qualities(model.value(), preset.instrument, lower))
+            return invalid_input(preset.file, *failure);
     }
     auto loaded = std::make_shared<LoadedInstrument>();
-    loaded->preset = std::move(preset.value());
+    loaded->preset = std::move(preset);
     loaded->model = std::move(model.value());
     loaded->cpu_compile_s = thread_cpu_s() - started;
     return SharedInstrument(std::move(loaded));
+}
+
+}  // namespace
+
+Outcome<SharedInstrument> compile_preset(Preset preset, const InstrumentSettings& settings) {
+    apply(settings, preset.instrument);
+    return compile_as_it_is(std::move(preset), settings);
+}
+
+Outcome<SharedInstrument> compile_preset_text(const std::string& text, const std::string& name,
+                                              const InstrumentSettings& settings) {
+    auto preset = read_preset(text, name);
+    if (!preset) return preset.error();
+    return compile_preset(std::move(preset.value()), settings);
+}
+
+Outcome<SharedInstrument> load_and_compile(const std::string& name, const InstrumentSettings& settings) {
+    auto preset = load_with(name, settings);
+    if (!preset) return preset.error();
+    return compile_as_it_is(std::move(preset.value()), settings);
 }
 
 std::vector<QualityDescription> live_qualities(const QualityDescription& full, double output_rate_hz) {
@@ -41,13 +69,7 @@ std::vector<QualityDescription> live_qualities(const QualityDescription& full, d
 
 Outcome<Preset> load_with(const std::string& preset, const InstrumentSettings& settings) {
     auto loaded = load_preset(preset);
-    if (!loaded) return loaded;
-    InstrumentDescription& instrument = loaded.value().instrument;
-    instrument.quality = at_quality(instrument, settings.quality);
-    if (settings.tuning) {
-        instrument.note_frequency_hz.assign(settings.tuning->begin(), settings.tuning->end());
-        instrument.tuning_moves_frets = settings.move_frets;
-    }
+    if (loaded) apply(settings, loaded.value().instrument);
     return loaded;
 }
 

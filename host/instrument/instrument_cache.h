@@ -51,6 +51,14 @@ class InstrumentCache {
     std::map<std::string, Entry> entries_;
 };
 
+/// Compiles what is in memory; nothing is read from files. `preset` is as read_preset() gives it; quality and
+/// tuning of the settings are applied to it first. Threads: any.
+Outcome<SharedInstrument> compile_preset(Preset preset, const InstrumentSettings& settings);
+
+/// The same from a preset's text; problems name `name`. Threads: any.
+Outcome<SharedInstrument> compile_preset_text(const std::string& text, const std::string& name,
+                                              const InstrumentSettings& settings);
+
 /// Loads and compiles without a cache: a preset's file is read anew.
 Outcome<SharedInstrument> load_and_compile(const std::string& name, const InstrumentSettings& settings);
 

@@ -39,12 +39,6 @@ std::optional<std::string> find_in_folders(const std::string& name) {
     return std::nullopt;
 }
 
-Outcome<Preset> load_file(const std::string& path) {
-    const auto text = read_file(path, longest_preset_bytes);
-    if (!text) return text.error();
-    return read_preset(text.value(), path);
-}
-
 void add_folder(const PresetFolder& folder, std::set<std::string>& seen, std::vector<NamedPreset>& presets) {
     std::error_code failed;
     for (const auto& entry : fs::directory_iterator(folder.path, failed)) {
@@ -86,16 +80,22 @@ std::optional<std::string> preset_path(const std::string& argument) {
     return is_name(argument) ? find_in_folders(argument) : std::nullopt;
 }
 
-Outcome<Preset> load_preset(const std::string& argument) {
-    if (const auto path = preset_path(argument)) return load_file(*path);
+Outcome<std::string> preset_text(const std::string& argument) {
+    if (const auto path = preset_path(argument)) return read_file(*path, longest_preset_bytes);
     if (is_name(argument)) {
         const BuiltinFile* builtin = find_builtin("instruments", argument);
-        if (builtin != nullptr) return read_preset(std::string(builtin->text), argument);
+        if (builtin != nullptr) return std::string(builtin->text);
     }
     std::vector<std::string> names;
     for (const NamedPreset& preset : named_presets()) names.push_back(preset.name);
     return Error{ErrorKind::File, printable(argument) + ": no such file, and no preset of that name" +
                                       did_you_mean(argument, names) + " (presets: " + join(names) + ")"};
+}
+
+Outcome<Preset> load_preset(const std::string& argument) {
+    const auto text = preset_text(argument);
+    if (!text) return text.error();
+    return read_preset(text.value(), preset_path(argument).value_or(argument));
 }
 
 bool preset_exists(const std::string& name) {

@@ -36,6 +36,9 @@ std::vector<NamedPreset> named_presets();
 /// preset is an error of kind File.
 Outcome<Preset> load_preset(const std::string& argument);
 
+/// The text that load_preset() would read, with the same errors.
+Outcome<std::string> preset_text(const std::string& argument);
+
 /// The file that load_preset() would read; nothing for what is built in and for what it would not find.
 std::optional<std::string> preset_path(const std::string& argument);
 

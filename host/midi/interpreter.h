@@ -77,6 +77,8 @@ struct MidiChannel {
     std::array<std::uint8_t, midi_key_count> open{};    ///< note-ons without their note-off
     std::array<std::uint8_t, midi_key_count> sounds{};  ///< key of the instrument, of the latest note-on
     std::array<float, midi_key_count> off_key{};        ///< semitones that it sounds above that key
+    std::array<float, midi_key_count> expressed{};      ///< and those that tune_note() adds [semitones]
+    std::bitset<midi_key_count> expresses;              ///< tune_note() has been called since it began
     std::bitset<midi_key_count> kept;                   ///< by the sostenuto pedal
     std::bitset<midi_key_count> let_go;                 ///< kept, and its note-off has come
 };

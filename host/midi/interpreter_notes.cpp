@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "midi/interpreter_controllers.h"
+#include "midi/interpreter_expressions.h"
 
 namespace jawari::host {
 
@@ -59,6 +60,11 @@ void note_off(MidiInterpreter& interpreter, int channel, int key, double release
     }
 }
 
+/// What a note sounds above its key of the instrument besides the channel's bend [semitones].
+double above_key(const MidiChannel& channel, std::size_t key) {
+    return static_cast<double>(channel.off_key[key]) + static_cast<double>(channel.expressed[key]);
+}
+
 /// A note that is off the instrument's keys begins at its own pitch: the channel has it for that moment.
 void add_note_on(const MidiInterpreter& interpreter, int channel, int key, double velocity,
                  MidiActions& actions) {
@@ -91,6 +97,8 @@ bool place_key(MidiInterpreter& interpreter, int channel, int key, MidiActions& 
     if (sounds < 0 || sounds > highest_key) return false;
     state.sounds[at] = static_cast<std::uint8_t>(sounds);
     state.off_key[at] = static_cast<float>(tuned - sounds);
+    state.expressed[at] = 0;
+    state.expresses[at] = false;
     return true;
 }
 
@@ -130,7 +138,12 @@ void note_on_message(MidiInterpreter& interpreter, int channel, int key, int vel
         note_off(interpreter, channel, key, 0.5, actions);
         return;
     }
-    const double struck = take_velocity(state, velocity);
+    start_note(interpreter, channel, key, take_velocity(state, velocity), actions);
+}
+
+void start_note(MidiInterpreter& interpreter, int channel, int key, double velocity,
+                MidiActions& actions) JAWARI_REALTIME {
+    MidiChannel& state = channel_state(interpreter, channel);
     if (!place_key(interpreter, channel, key, actions)) {
         actions.ignored = true;
         return;
@@ -139,14 +152,30 @@ void note_on_message(MidiInterpreter& interpreter, int channel, int key, int vel
     if (state.open[at] < std::numeric_limits<std::uint8_t>::max()) state.open[at] += 1;
     state.let_go[at] = false;
     if (slides_from(state, key)) {
-        add_slide(interpreter, channel, key, struck, actions);
+        add_slide(interpreter, channel, key, velocity, actions);
     } else {
-        add_note_on(interpreter, channel, key, struck, actions);
+        add_note_on(interpreter, channel, key, velocity, actions);
     }
     state.glide_from = -1;
     const int before = state.mono_key;
     state.mono_key = key;
     if (state.mono && before >= 0 && before != key) end_mono_key(interpreter, channel, before, actions);
+}
+
+void release_note(MidiInterpreter& interpreter, int channel, int key, double release,
+                  MidiActions& actions) JAWARI_REALTIME {
+    note_off(interpreter, channel, key, release, actions);
+}
+
+void tune_note(MidiInterpreter& interpreter, int channel, int key, double semitones,
+               MidiActions& actions) JAWARI_REALTIME {
+    MidiChannel& state = channel_state(interpreter, channel);
+    const auto at = static_cast<std::size_t>(key);
+    if (state.open[at] == 0 && !state.let_go[at]) return;
+    state.expressed[at] = static_cast<float>(semitones);
+    state.expresses[at] = true;
+    const double own = std::clamp(whole_bend(interpreter, channel) + above_key(state, at), -96.0, 96.0);
+    add_event(actions, bend_note(0, state.sounds[at], own, channel));
 }
 
 void note_off_message(MidiInterpreter& interpreter, int channel, int key, int velocity,
@@ -183,8 +212,8 @@ void add_key_bends(const MidiInterpreter& interpreter, int channel, double bend,
     const MidiChannel& state = interpreter.channels[static_cast<std::size_t>(channel)];
     for (std::size_t key = 0; key < midi_key_count; ++key) {
         const bool sounds = state.open[key] > 0 || state.let_go[key];
-        if (!sounds || state.off_key[key] == 0) continue;
-        const double own = std::clamp(bend + static_cast<double>(state.off_key[key]), -96.0, 96.0);
+        if (!sounds || (state.off_key[key] == 0 && !state.expresses[key])) continue;
+        const double own = std::clamp(bend + above_key(state, key), -96.0, 96.0);
         add_event(actions, bend_note(0, state.sounds[key], own, channel));
     }
 }
@@ -198,7 +227,7 @@ void retune_notes(MidiInterpreter& interpreter, int channel, MidiActions& action
         const auto off_key = static_cast<float>(tuned - state.sounds[key]);
         if (off_key == state.off_key[key]) continue;
         state.off_key[key] = off_key;
-        const double own = std::clamp(bend + static_cast<double>(off_key), -96.0, 96.0);
+        const double own = std::clamp(bend + above_key(state, key), -96.0, 96.0);
         add_event(actions, bend_note(0, state.sounds[key], own, channel));
     }
 }

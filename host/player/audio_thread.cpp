@@ -11,8 +11,15 @@ namespace jawari::host {
 
 namespace {
 
-/// Of a block; more wait for the next.
-constexpr std::size_t most_events = 16384;
+StageSettings settings_of_stage(const LiveSettings& settings) {
+    StageSettings stage;
+    stage.rate_hz = settings.rate_hz;
+    stage.most_frames = settings.most_frames;
+    stage.interpreter = settings.interpreter;
+    stage.gain = settings.gain;
+    stage.ring_out_s = settings.ring_out_s;
+    return stage;
+}
 
 std::optional<Limiter> limiter_of(const LiveSettings& settings) {
     if (!settings.limiter_dbfs) return std::nullopt;
@@ -24,15 +31,10 @@ std::optional<Limiter> limiter_of(const LiveSettings& settings) {
 AudioThread::AudioThread(const LiveSettings& settings, LiveLinks& links)
     : settings_(settings),
       links_(links),
-      interpreter_(make_interpreter(settings.interpreter)),
       clock_(make_block_clock(settings.rate_hz)),
-      gain_(settings.gain),
-      gain_target_(settings.gain),
+      stage_(settings_of_stage(settings)),
       limiter_(limiter_of(settings)) {
     governor_.settings = settings.overload;
-    events_.reserve(most_events);
-    chunk_.reserve(most_events);
-    gains_.assign(settings.most_frames, settings.gain);
     captured_.resize(settings.most_frames);
 }
 
@@ -41,7 +43,7 @@ void AudioThread::process(double* left, double* right, std::size_t frames,
     const NoDenormals guard;
     const std::int64_t started_ns = settings_.clock();
     begin_block(clock_, now_ns, frames);
-    events_.clear();
+    stage_.begin_block();
     obey_commands();
     take_messages(frames);
     adapt_quality();
@@ -51,7 +53,8 @@ void AudioThread::process(double* left, double* right, std::size_t frames,
         begin += count;
     }
     survey_strings();
-    retire_silent();
+    stage_.retire_silent();
+    give_back_retired();
     measure_instruments();
     measure(frames, started_ns);
 }
@@ -62,7 +65,7 @@ void AudioThread::take_messages(std::size_t frames) JAWARI_REALTIME {
     links_.inlet.begin_block();
     ArrivedMessage arrived;
     for (std::size_t n = 0; n < most_messages; ++n) {
-        if (events_.size() + most_events_per_message > most_events) break;
+        if (!stage_.has_room()) break;
         if (!links_.inlet.next(clock_, frames, arrived)) break;
         apply(arrived.message, arrived.offset);
         links_.meters.messages.fetch_add(1, std::memory_order_relaxed);
@@ -70,15 +73,14 @@ void AudioThread::take_messages(std::size_t frames) JAWARI_REALTIME {
 }
 
 void AudioThread::apply(const ChannelMessage& message, std::size_t offset) JAWARI_REALTIME {
-    interpret(interpreter_, message, actions_);
+    const std::size_t before = stage_.events().size();
+    const MidiActions& actions = stage_.take(message, offset);
     remember(controllers_, message);
-    if (actions_.ignored) count_ignored(message);
-    for (std::size_t i = 0; i < actions_.count; ++i) add_event(actions_.events[i], offset);
-    if (actions_.program.asked) {
-        const ProgramRequest& asked = actions_.program;
-        links_.program.store(pack(asked), std::memory_order_release);
-    }
-    const std::uint64_t frame = frame_ + offset;
+    if (actions.ignored) count_ignored(message);
+    links_.meters.unplayed_notes.store(stage_.unplayed_notes(), std::memory_order_relaxed);
+    show_parameters(before);
+    if (actions.program.asked) links_.program.store(pack(actions.program), std::memory_order_release);
+    const std::uint64_t frame = stage_.frame() + offset;
     if (capture_ != nullptr && capture_left_ == 0 &&
         !capture_->messages.push({frame - capture_begin_, message}))
         capture_->lost_messages.fetch_add(1, std::memory_order_relaxed);
@@ -94,66 +96,28 @@ void AudioThread::count_ignored(const ChannelMessage& message) JAWARI_REALTIME {
     count->fetch_add(1, std::memory_order_relaxed);
 }
 
-void AudioThread::add_event(InstrumentEvent event, std::size_t offset) JAWARI_REALTIME {
-    // As make_score(): in guitar mode, other channels have no strings.
-    const bool guitar = settings_.interpreter.guitar_channel >= 0;
-    if (guitar && event.type == InstrumentEventType::NoteOn && event.string < 0) {
-        links_.meters.unplayed_notes.fetch_add(1, std::memory_order_relaxed);
-        return;
-    }
-    event.frame = offset;
-    events_.push_back(event);
-    if (event.type != InstrumentEventType::SetParameter) return;
-    const auto id = static_cast<std::size_t>(event.parameter);
-    for (int channel = 0; channel < static_cast<int>(midi_channel_count); ++channel) {
-        if (event.channel < 0 || event.channel == channel)
-            links_.meters.parameters[static_cast<std::size_t>(channel)][id].store(event.value,
-                                                                                  std::memory_order_relaxed);
+/// Those that the block's events from `first` on have set.
+void AudioThread::show_parameters(std::size_t first) JAWARI_REALTIME {
+    for (const InstrumentEvent& event : stage_.events().subspan(first)) {
+        if (event.type != InstrumentEventType::SetParameter) continue;
+        const auto id = static_cast<std::size_t>(event.parameter);
+        for (int channel = 0; channel < static_cast<int>(midi_channel_count); ++channel) {
+            if (event.channel < 0 || event.channel == channel)
+                links_.meters.parameters[static_cast<std::size_t>(channel)][id].store(
+                    event.value, std::memory_order_relaxed);
+        }
     }
 }
 
 // ---------------------------------------------------------------------------------------------- sound
 
 void AudioThread::render(double* left, double* right, std::size_t begin, std::size_t frames) JAWARI_REALTIME {
-    std::fill(left, left + frames, 0.0);
-    std::fill(right, right + frames, 0.0);
-    follow_gain(frames);
-    for (std::size_t i = 0; i < sounding_; ++i) render_one(*stage_[i], i == 0, begin, frames, left, right);
+    stage_.render({left, right, {}}, begin, frames);
     if (limiter_) {
         for (std::size_t n = 0; n < frames; ++n) limit(*limiter_, left[n], right[n]);
     }
     measure_level(left, right, frames);
     if (capture_ != nullptr) capture(left, right, frames);
-    frame_ += frames;
-}
-
-void AudioThread::follow_gain(std::size_t frames) JAWARI_REALTIME {
-    for (std::size_t n = 0; n < frames; ++n) {
-        if (gain_ != gain_target_) {
-            const double left = gain_target_ - gain_;
-            gain_ = std::abs(left) <= std::abs(gain_rate_) ? gain_target_ : gain_ + gain_rate_;
-        }
-        gains_[n] = gain_;
-    }
-}
-
-void AudioThread::render_one(LiveInstrument& instrument, bool plays, std::size_t begin, std::size_t frames,
-                             double* left, double* right) JAWARI_REALTIME {
-    chunk_.clear();
-    for (const InstrumentEvent& event : events_) {
-        if (event.frame < begin || event.frame >= begin + frames) continue;
-        if (!plays && event.type == InstrumentEventType::NoteOn) continue;
-        chunk_.push_back(event);
-        chunk_.back().frame -= begin;
-    }
-    const InstrumentOutput output{instrument.left.data(), instrument.right.data(), {}};
-    render_instrument(instrument.loaded->model, instrument.state, chunk_, output, frames);
-    if (instrument.fading) fade(instrument, frames);
-    for (std::size_t n = 0; n < frames; ++n) {
-        left[n] += gains_[n] * instrument.left[n];
-        right[n] += gains_[n] * instrument.right[n];
-    }
-    if (!plays) instrument.ring_frames += frames;
 }
 
 void AudioThread::capture(const double* left, const double* right, std::size_t frames) JAWARI_REALTIME {

@@ -35,18 +35,17 @@ void AudioThread::measure_instruments() JAWARI_REALTIME {
     std::uint64_t nonfinite = retired_nonfinite_;
     std::size_t held = 0;
     std::size_t voices = 0;
-    for (std::size_t i = 0; i < sounding_; ++i) {
-        LiveInstrument& instrument = *stage_[i];
-        counters += instrument.state.counters;
-        nonfinite += instrument.nonfinite_resets;
-        held += held_notes(instrument.state);
-        voices += sounding_voices(instrument.state);
+    for (const StagedInstrument* instrument : stage_.sounding()) {
+        counters += instrument->state.counters;
+        nonfinite += instrument->nonfinite_resets;
+        held += held_notes(instrument->state);
+        voices += sounding_voices(instrument->state);
     }
     if (nonfinite != nonfinite_resets_)
         notify(LiveNotice::Kind::NonfiniteReset, static_cast<double>(nonfinite));
     nonfinite_resets_ = nonfinite;
     LiveMeters& meters = links_.meters;
-    meters.instruments.store(sounding_, relaxed);
+    meters.instruments.store(stage_.sounding().size(), relaxed);
     meters.held_notes.store(held, relaxed);
     meters.voices.store(voices, relaxed);
     meters.notes.store(counters.notes, relaxed);
@@ -58,12 +57,13 @@ void AudioThread::measure_instruments() JAWARI_REALTIME {
 
 /// Surveys one string of each instrument per block: measuring all at once would cost too much.
 void AudioThread::survey_strings() JAWARI_REALTIME {
-    if (sounding_ == 0) return;
-    for (std::size_t i = 0; i < sounding_; ++i) survey_string(*stage_[i]);
-    links_.meters.energy_J.store(stage_[0]->energy_J, relaxed);
+    const auto sounding = stage_.sounding();
+    if (sounding.empty()) return;
+    for (StagedInstrument* instrument : sounding) survey_string(*instrument);
+    links_.meters.energy_J.store(sounding[0]->energy_J, relaxed);
 }
 
-void AudioThread::survey_string(LiveInstrument& instrument) JAWARI_REALTIME {
+void AudioThread::survey_string(StagedInstrument& instrument) JAWARI_REALTIME {
     InstrumentState& state = instrument.state;
     const InstrumentModel& model = instrument.loaded->model;
     instrument.energy_sum_J += string_energy(model, state, instrument.surveyed);
@@ -85,7 +85,7 @@ void AudioThread::measure(std::size_t frames, std::int64_t started_ns) JAWARI_RE
     const double load = 1e-9 * static_cast<double>(settings_.clock() - started_ns) / available_s;
     mean_load_ += std::min(1.0, available_s / mean_load_s) * (load - mean_load_);
     meters.blocks.fetch_add(1, relaxed);
-    meters.frames.store(frame_, relaxed);
+    meters.frames.store(stage_.frame(), relaxed);
     meters.load.store(load, relaxed);
     meters.mean_load.store(mean_load_, relaxed);
     raise(meters.worst_load, load);
@@ -98,7 +98,7 @@ void AudioThread::measure(std::size_t frames, std::int64_t started_ns) JAWARI_RE
 }
 
 void AudioThread::notify(LiveNotice::Kind kind, double value) JAWARI_REALTIME {
-    links_.notices.push({kind, frame_, value});  // if nobody reads them, later ones are left out
+    links_.notices.push({kind, stage_.frame(), value});  // if nobody reads them, later ones are left out
 }
 
 }  // namespace jawari::host

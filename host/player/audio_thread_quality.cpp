@@ -36,8 +36,9 @@ void AudioThread::adapt_quality() JAWARI_REALTIME {
     if (governor_.level == OverloadLevel::Full && lowered_ == 0) return;
     std::size_t changes = 0;
     lowered_ = 0;
-    for (std::size_t i = 0; i < sounding_; ++i) {
-        LiveInstrument& instrument = *stage_[i];
+    const auto sounding = stage_.sounding();
+    for (std::size_t i = 0; i < sounding.size(); ++i) {
+        StagedInstrument& instrument = *sounding[i];
         const InstrumentModel& model = instrument.loaded->model;
         for (std::size_t s = 0; s < model.strings.size(); ++s) {
             InstrumentState& state = instrument.state;
@@ -53,8 +54,8 @@ void AudioThread::adapt_quality() JAWARI_REALTIME {
         }
     }
     if (governor_.level != OverloadLevel::Fading) return;
-    for (std::size_t i = 1; i < sounding_; ++i) stage_[i]->fading = true;
-    if (sounding_ > 0) fade_oldest_released(stage_[0]->state);
+    for (std::size_t i = 1; i < sounding.size(); ++i) sounding[i]->fading = true;
+    if (!sounding.empty()) fade_oldest_released(sounding[0]->state);
 }
 
 }  // namespace jawari::host

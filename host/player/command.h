@@ -9,7 +9,7 @@
 namespace jawari::host {
 
 struct CaptureRing;
-struct LiveInstrument;
+struct StagedInstrument;
 
 /// From the control thread. Takes effect at the start of the block in which it is read, before MIDI.
 struct LiveCommand {
@@ -25,7 +25,7 @@ struct LiveCommand {
     ParameterId parameter{};
     int channel = -1;  ///< SetParameter: 0 to 15; -1: all
     double value = 0;
-    LiveInstrument* instrument = nullptr;
+    StagedInstrument* instrument = nullptr;
     CaptureRing* capture = nullptr;
 };
 

@@ -21,17 +21,6 @@ bool is_in_range(const LiveCommand& command) {
     return command.value >= parameter.low && command.value <= parameter.high;
 }
 
-std::unique_ptr<LiveInstrument> make_live(const SharedInstrument& loaded, const LiveSettings& settings) {
-    auto live = std::make_unique<LiveInstrument>();
-    live->loaded = loaded;
-    live->state = make_instrument_state(loaded->model);
-    const bool guitar = settings.interpreter.guitar_channel >= 0;
-    set_play_mode(live->state, guitar ? PlayMode::Guitar : PlayMode::Keyboard);
-    live->left.assign(settings.most_frames, 0.0);
-    live->right.assign(settings.most_frames, 0.0);
-    return live;
-}
-
 }  // namespace
 
 std::int64_t steady_clock_ns() noexcept {
@@ -87,8 +76,8 @@ MidiPort* LivePlayer::add_port() {
 }
 
 bool LivePlayer::publish(const SharedInstrument& instrument) {
-    if (shared_->published == most_live_instruments) return false;
-    auto live = make_live(instrument, shared_->settings);
+    if (shared_->published == most_staged_instruments) return false;
+    auto live = make_staged(instrument, shared_->audio_thread.stage_settings());
     LiveCommand command;
     command.kind = LiveCommand::Kind::Publish;
     command.instrument = live.get();
@@ -128,7 +117,7 @@ bool LivePlayer::stop_capture() {
 }
 
 void LivePlayer::collect() {
-    shared_->links.retired.consume_all([this](LiveInstrument* retired) {
+    shared_->links.retired.consume_all([this](StagedInstrument* retired) {
         delete retired;  // NOLINT(cppcoreguidelines-owning-memory): made by publish()
         shared_->published -= 1;
     });

@@ -30,6 +30,16 @@ MidiMap adversary_map() {
     return map;
 }
 
+std::string adversary_map_text() {
+    std::string bindings;
+    for (const ParameterDeclaration& parameter : parameter_table()) {
+        const int controller = controller_of(static_cast<std::size_t>(parameter.id));
+        bindings += (bindings.empty() ? "" : ", ") + std::string(R"({"controller": )") +
+                    std::to_string(controller) + R"(, "parameter": ")" + std::string(parameter.key) + "\"}";
+    }
+    return R"({"schema": "jawari.midi-map/1", "bindings": [)" + bindings + "]}";
+}
+
 Adversary::Adversary(const InstrumentModel& model, std::uint32_t seed)
     : rate_hz_(model.output_rate_hz), random_(seed) {
     for (const CourseModel& course : model.courses) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "jawari/instrument/model.h"
@@ -20,6 +21,8 @@ struct AdversaryMessage {
 
 /// Controllers 20 to 31 and 102 to 117 move the parameters in their order, so that all can be played with.
 MidiMap adversary_map();
+/// The same as the text of a map file.
+std::string adversary_map_text();
 
 /// Goes through these for a quarter of a second each, without a pause: chords on all courses with all keys
 /// down, struck again and again with neutral parameters; runs over the whole compass as fast as a MIDI cable

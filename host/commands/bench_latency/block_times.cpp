@@ -9,6 +9,7 @@
 #include "base/interrupt.h"
 #include "commands/bench_latency/adversary.h"
 #include "player/player.h"
+#include "plugin/core/plugin_core.h"
 
 namespace jawari::host {
 
@@ -24,10 +25,10 @@ LiveSettings settings_of(const BlockTimeSettings& wanted) {
     return settings;
 }
 
-/// One performance from its start, block by block.
-class Pass {
+/// One performance from its start, block by block, as jawari play has it.
+class LivePass {
   public:
-    Pass(const SharedInstrument& instrument, const BlockTimeSettings& settings)
+    LivePass(const SharedInstrument& instrument, const BlockTimeSettings& settings)
         : frames_(settings.frames),
           frame_ns_(1e9 / settings.rate_hz),
           adversary_(instrument->model, settings.seed),
@@ -55,7 +56,8 @@ class Pass {
         return taken;
     }
 
-    LiveStatistics statistics() { return player_.statistics(); }
+    std::uint64_t notes() { return player_.statistics().notes; }
+    std::uint64_t late() { return player_.statistics().late_blocks; }
 
   private:
     [[nodiscard]] std::int64_t time_of(double frame) const {
@@ -71,28 +73,92 @@ class Pass {
     std::uint64_t frame_ = 0;
 };
 
+/// The same as a plugin has it: events with their frames, and floats.
+class PluginPass {
+  public:
+    PluginPass(const SharedInstrument& instrument, const BlockTimeSettings& settings)
+        : frames_(settings.frames),
+          block_ns_(1e9 * static_cast<double>(settings.frames) / settings.rate_hz),
+          adversary_(instrument->model, settings.seed),
+          left_(settings.frames),
+          right_(settings.frames) {
+        error_ = core_.load(settings.plugin_state);
+        if (!error_) error_ = core_.activate(settings.rate_hz);
+    }
+
+    [[nodiscard]] const MaybeError& error() const { return error_; }
+
+    double play_block() {
+        const std::vector<AdversaryMessage>& messages = adversary_.next(frames_);
+        PluginOutput output;
+        output.main = {left_.data(), right_.data()};
+        const double before = thread_cpu_s();
+        const std::int64_t begun_ns = steady_clock_ns();
+        core_.begin_block(output, frames_, 0);
+        for (const AdversaryMessage& message : messages) core_.take(message.message, message.offset);
+        core_.end_block();
+        if (static_cast<double>(steady_clock_ns() - begun_ns) > block_ns_) late_ += 1;
+        const double taken = thread_cpu_s() - before;
+        for (const AdversaryMessage& message : messages)
+            if (kind_of(message.message) == MessageKind::NoteOn && message.message.data2 > 0) notes_ += 1;
+        return taken;
+    }
+
+    [[nodiscard]] std::uint64_t notes() const { return notes_; }
+    [[nodiscard]] std::uint64_t late() const { return late_; }
+
+  private:
+    std::size_t frames_;
+    double block_ns_;
+    Adversary adversary_;
+    PluginCore core_;
+    MaybeError error_;
+    std::vector<float> left_, right_;
+    std::uint64_t notes_ = 0, late_ = 0;
+};
+
+/// Plays a pass, the `number`th.
+template <class Pass>
+MaybeError time_pass(Pass& pass, std::size_t number, const BlockTimeSettings& settings, BlockTimes& times) {
+    const double available_s = static_cast<double>(settings.frames) / settings.rate_hz;
+    for (std::uint64_t block = 0; block < settings.blocks; ++block) {
+        const auto share = static_cast<float>(pass.play_block() / available_s);
+        times.raw.push_back(share);
+        times.minimum[block] = std::min(times.minimum[block], share);
+        if (block % 256 != 0) continue;
+        if (auto stop = interruption()) return stop;
+        const double done = static_cast<double>(number * settings.blocks + block);
+        if (settings.progress)
+            settings.progress(done / static_cast<double>(settings.passes * settings.blocks));
+    }
+    times.notes = pass.notes();
+    times.late += pass.late();
+    return std::nullopt;
+}
+
+MaybeError time_plugin_pass(const SharedInstrument& instrument, std::size_t number,
+                            const BlockTimeSettings& settings, BlockTimes& times) {
+    PluginPass pass(instrument, settings);
+    if (pass.error()) return pass.error();
+    return time_pass(pass, number, settings, times);
+}
+
+MaybeError time_live_pass(const SharedInstrument& instrument, std::size_t number,
+                          const BlockTimeSettings& settings, BlockTimes& times) {
+    LivePass pass(instrument, settings);
+    return time_pass(pass, number, settings, times);
+}
+
 }  // namespace
 
 Outcome<BlockTimes> measure_blocks(const SharedInstrument& instrument, const BlockTimeSettings& settings) {
     BlockTimes times;
     times.raw.reserve(settings.blocks * settings.passes);
     times.minimum.assign(settings.blocks, std::numeric_limits<float>::infinity());
-    const double available_s = static_cast<double>(settings.frames) / settings.rate_hz;
     for (std::size_t p = 0; p < settings.passes; ++p) {
-        Pass pass(instrument, settings);
-        for (std::uint64_t block = 0; block < settings.blocks; ++block) {
-            const auto share = static_cast<float>(pass.play_block() / available_s);
-            times.raw.push_back(share);
-            times.minimum[block] = std::min(times.minimum[block], share);
-            if (block % 256 != 0) continue;
-            if (auto stop = interruption()) return *stop;
-            const double done = static_cast<double>(p * settings.blocks + block);
-            if (settings.progress)
-                settings.progress(done / static_cast<double>(settings.passes * settings.blocks));
-        }
-        const LiveStatistics statistics = pass.statistics();
-        times.notes = statistics.notes;
-        times.late += statistics.late_blocks;
+        const auto error = settings.plugin ? time_plugin_pass(instrument, p, settings, times)
+                                           : time_live_pass(instrument, p, settings, times);
+        if (error) return *error;
     }
     return times;
 }

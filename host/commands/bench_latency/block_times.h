@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "instrument/instrument_cache.h"
+#include "plugin/core/plugin_state.h"
 
 namespace jawari::host {
 
@@ -17,11 +18,14 @@ struct BlockTimeSettings {
     std::uint64_t blocks = 1000;  ///< played in each pass
     std::size_t passes = 7;       ///< identical ones; what differs between them is the machine
     std::uint32_t seed = 1;
-    bool governor = false;                          ///< passes then differ: quality follows the machine
+    bool plugin = false;       ///< the way through the plugin instead of that of jawari play
+    PluginState plugin_state;  ///< then in force, with the instrument in it
+    bool governor = false;     ///< passes then differ: quality follows the machine
     std::function<void(double fraction)> progress;  ///< may be empty
 };
 
-/// Thread CPU time of LivePlayer::process() as a share of the time that the block lasts.
+/// Thread CPU time of LivePlayer::process(), or of a block of PluginCore, as a share of the time that the
+/// block lasts.
 struct BlockTimes {
     std::vector<float> raw;      ///< of every block of every pass
     std::vector<float> minimum;  ///< of each block, over the passes: rendering is deterministic, so what is

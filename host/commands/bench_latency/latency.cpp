@@ -9,6 +9,7 @@
 #include "base/platform.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "commands/bench_latency/adversary.h"
 #include "commands/bench_latency/report.h"
 #include "instrument/preset_library.h"
 #include "plot/gnuplot.h"
@@ -33,6 +34,7 @@ MaybeError write_text(const std::string& path, const std::string& text) {
 struct Job {
     SharedInstrument instrument;
     PresetResult result;
+    PluginState plugin_state;  ///< the same instrument in the plugin
 };
 
 /// Loads a preset and measures what every preset is measured for.
@@ -45,8 +47,14 @@ Outcome<Job> survey(const std::string& preset, const LatencyOptions& options) {
     bool compiled = false;
     auto instrument = cache.get(preset, compiled);
     if (!instrument) return instrument.error();
-    Job job{instrument.value(), {}};
+    Job job{instrument.value(), {}, {}};
     job.result.preset = preset;
+    const auto text = preset_text(preset);
+    if (!text) return text.error();
+    job.plugin_state.preset_name = preset;
+    job.plugin_state.preset_text = text.value();
+    job.plugin_state.quality = options.quality;
+    job.plugin_state.midi_map_text = adversary_map_text();
     job.result.delay = measure_event_delay(job.instrument, options.rate_hz);
     if (!options.presets.empty()) return job;
     BlockTimeSettings timing;
@@ -69,6 +77,8 @@ MaybeError measure_size(Job& job, std::size_t frames, const LatencyOptions& opti
     timing.blocks = (options.blocks + options.passes - 1) / options.passes;
     timing.seed = options.seed;
     timing.governor = options.governor;
+    timing.plugin = options.plugin;
+    timing.plugin_state = job.plugin_state;
     ProgressBar bar(job.result.preset + ", " + std::to_string(frames) + " frames");
     timing.progress = [&bar](double fraction) { bar.update(fraction); };
     auto times = measure_blocks(job.instrument, timing);
@@ -127,6 +137,8 @@ MaybeError write_report(const LatencyReport& report, const LatencyOptions& optio
 }  // namespace
 
 MaybeError bench_latency(const LatencyOptions& options) {
+    if (options.plugin && options.governor)
+        return usage_error("--governor", "together with --plugin", "one of them: a plugin keeps its quality");
     if (auto error = check_files(options)) return error;
     if (!options.plot.empty()) {
         if (auto error = plot::can_plot(options.plot)) return error;
@@ -151,7 +163,8 @@ MaybeError bench_latency(const LatencyOptions& options) {
     LatencyReport report;
     report.processor = printable(platform::processor_name());
     report.rate_hz = options.rate_hz;
-    report.quality = std::string(name_of(options.quality)) + (options.governor ? ", governed" : "");
+    report.quality = std::string(name_of(options.quality)) + (options.governor ? ", governed" : "") +
+                     (options.plugin ? ", in the plugin" : "");
     for (Job& job : jobs) report.presets.push_back(std::move(job.result));
     return write_report(report, options);
 }

@@ -18,6 +18,7 @@ struct LatencyOptions {
     std::uint32_t rate_hz = 48000;
     Quality quality = Quality::Live;
     std::uint32_t seed = 1;
+    bool plugin = false;     ///< times the plugin's blocks
     bool governor = false;   ///< quality may drop, as when playing live
     std::string json;        ///< a file; `-`: standard output instead of the table
     std::string csv;         ///< a file

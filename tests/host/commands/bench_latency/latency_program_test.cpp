@@ -4,8 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "commands/bench_latency/adversary.h"
 #include "commands/bench_latency/block_times.h"
 #include "commands/bench_latency/event_delay.h"
+#include "midi/read_midi_map.h"
 #include "support/live_stage.h"
 #include "support/run_program.h"
 
@@ -44,6 +46,37 @@ TEST(LatencyProgram, ReportsEveryFormat) {
     while (std::getline(csv, text)) ++lines;
     EXPECT_EQ(lines, 5U);
     EXPECT_NE(test::read_text(folder.file("l.svg")).find("</svg>"), std::string::npos);
+}
+
+TEST(LatencyProgram, TimesThePlugin) {
+    const auto ran = run({JAWARI_PROGRAM, "bench-latency", "--plugin", "--preset", "bass-fretted", "--frames",
+                          "64", "--blocks", "200", "--passes", "2", "--json", "-"});
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    const auto json = nlohmann::json::parse(ran.out);
+    EXPECT_EQ(json.at("quality"), "live, in the plugin");
+    const auto& size = json.at("presets").at(0).at("block_share_of_deadline").at(0);
+    EXPECT_EQ(size.at("raw").at("count"), 200);
+    EXPECT_GT(size.at("minimum").at("median"), 0);
+    const auto refused = run({JAWARI_PROGRAM, "bench-latency", "--plugin", "--governor"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.error_lines(), 1) << refused.err;
+}
+
+TEST(Adversary, ItsMapAsTextIsItsMap) {
+    const auto read = read_midi_map(adversary_map_text(), "text");
+    ASSERT_TRUE(read) << read.error().message;
+    const MidiMap map = adversary_map();
+    ASSERT_EQ(read.value().count, map.count);
+    for (int controller = 0; controller < 120; ++controller) {
+        const auto bound_to = [controller](const MidiMap& one) {
+            int parameter = -1;
+            for (std::size_t i = 0; i < one.count; ++i)
+                if (one.bindings[i].number == controller)
+                    parameter = static_cast<int>(one.bindings[i].parameter);
+            return parameter;
+        };
+        EXPECT_EQ(bound_to(read.value()), bound_to(map)) << controller;
+    }
 }
 
 TEST(LatencyProgram, RefusesWhatMakesNoSense) {
