@@ -64,7 +64,8 @@ class Stage {
     /// has_room().
     void set_parameter(ParameterId parameter, double value, std::size_t frame) JAWARI_REALTIME;
 
-    /// Any other event, as it is. In guitar mode, notes beside the guitar's channels are left out and counted.
+    /// Any other event, as it is. In guitar mode, notes beside the guitar's channels are left out and
+    /// counted.
     void add(InstrumentEvent event, std::size_t frame) JAWARI_REALTIME;
     /// Notes left out so far.
     [[nodiscard]] std::uint64_t unplayed_notes() const JAWARI_REALTIME { return unplayed_notes_; }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 namespace jawari {
 namespace {
@@ -12,12 +14,13 @@ namespace {
 constexpr std::size_t fewest_contacts = 64;
 // Of more, every fourth is.
 constexpr std::size_t coarsening = 4;
-// Blocks that are exchanged without fewer wrong signs than ever, before single contacts are.
+// Blocks that are exchanged without fewer wrong signs than ever.
 constexpr int most_vain_blocks = 3;
+// Up to so many contacts single ones are exchanged then.
+constexpr std::size_t few_contacts = 256;
 constexpr int most_exchanges = 500;
-// Of the worst violation: wrong signs up to this are rounding, and gaps that should be closed.
+// Of the worst violation: wrong signs up to this are rounding.
 constexpr double largest_rounding = 1e-12;
-constexpr double largest_residual = 1e-9;
 
 struct Pivots {
     const ContactOperator& A;
@@ -74,36 +77,53 @@ std::vector<std::size_t> wrong_signs(const Pivots& p) {
     return wrong;
 }
 
-/// Exchanges contacts until all signs are right.
+/// Exchanges contacts until all signs are right, of many until that no longer helps. False if contacts depend
+/// on one another.
 bool exchange(Pivots& p) {
     std::size_t fewest = p.count() + 1;
     int vain = 0;
     for (int exchanges = 0; exchanges < most_exchanges; ++exchanges) {
         if (!close_active_gaps(p)) return false;
         const std::vector<std::size_t> wrong = wrong_signs(p);
-        if (wrong.empty()) return true;
         vain = wrong.size() < fewest ? 0 : vain + 1;
         fewest = std::min(fewest, wrong.size());
+        const bool singly = vain > most_vain_blocks;
+        if (wrong.empty() || (singly && p.count() > few_contacts)) break;
         // The last one alone: Murty's rule of a fixed order, which ends.
-        for (std::size_t k = vain > most_vain_blocks ? wrong.size() - 1 : 0; k < wrong.size(); ++k)
+        for (std::size_t k = singly ? wrong.size() - 1 : 0; k < wrong.size(); ++k)
             p.active[wrong[k]] = !p.active[wrong[k]];
     }
-    return false;
+    return true;
 }
 
-/// Those that carry when every `coarsening`th contact is there alone: the guess for those between them.
-std::optional<std::vector<bool>> guess(const ContactOperator& A, std::span<const double> r,
-                                       std::span<const std::uint32_t> contacts, double tolerance);
+/// The contacts that carry when every `coarsening`th is there alone, and those between them.
+std::vector<bool> between(const Pivots& coarse, std::size_t count) {
+    std::vector<bool> active(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t before = i / coarsening;
+        const std::size_t after = std::min((i + coarsening - 1) / coarsening, coarse.count() - 1);
+        active[i] = coarse.active[before] && coarse.active[after];
+    }
+    return active;
+}
 
 std::optional<Pivots> solve(const ContactOperator& A, std::span<const double> r,
                             std::vector<std::uint32_t> contacts, double tolerance) {
-    auto active = guess(A, r, contacts, tolerance);
-    if (!active) return {};
+    std::vector<bool> active(contacts.size());
+    if (contacts.size() <= fewest_contacts) {
+        for (std::size_t i = 0; i < contacts.size(); ++i) active[i] = r[contacts[i]] < 0;
+    } else {
+        std::vector<std::uint32_t> some;
+        for (std::size_t i = 0; i < contacts.size(); i += coarsening) some.push_back(contacts[i]);
+        const auto coarse = solve(A, r, std::move(some), tolerance);
+        if (!coarse) return {};
+        active = between(*coarse, contacts.size());
+    }
     const auto count = static_cast<Eigen::Index>(contacts.size());
     Pivots p{A,
              r,
              std::move(contacts),
-             std::move(*active),
+             std::move(active),
              Eigen::VectorXd::Zero(count),
              Eigen::VectorXd::Zero(count),
              tolerance};
@@ -111,41 +131,18 @@ std::optional<Pivots> solve(const ContactOperator& A, std::span<const double> r,
     return p;
 }
 
-std::optional<std::vector<bool>> guess(const ContactOperator& A, std::span<const double> r,
-                                       std::span<const std::uint32_t> contacts, double tolerance) {
-    std::vector<bool> active(contacts.size());
-    if (contacts.size() <= fewest_contacts) {
-        for (std::size_t i = 0; i < contacts.size(); ++i) active[i] = r[contacts[i]] < 0;
-        return active;
-    }
-    std::vector<std::uint32_t> some;
-    for (std::size_t i = 0; i < contacts.size(); i += coarsening) some.push_back(contacts[i]);
-    const auto coarse = solve(A, r, std::move(some), tolerance);
-    if (!coarse) return {};
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-        const std::size_t before = i / coarsening;
-        const std::size_t after = std::min((i + coarsening - 1) / coarsening, coarse->count() - 1);
-        active[i] = coarse->active[before] && coarse->active[after];
-    }
-    return active;
-}
-
 }  // namespace
 
-std::optional<std::vector<double>> solve_by_block_pivots(const ContactOperator& A,
-                                                         std::span<const double> r) {
+std::vector<double> guess_by_block_pivots(const ContactOperator& A, std::span<const double> r) {
+    std::vector<double> lambda(r.size(), 0.0);
+    const double lowest = r.empty() ? 0.0 : *std::min_element(r.begin(), r.end());
+    if (lowest >= 0) return lambda;
     std::vector<std::uint32_t> contacts(r.size());
     std::iota(contacts.begin(), contacts.end(), 0U);
-    const double lowest = r.empty() ? 0.0 : *std::min_element(r.begin(), r.end());
-    if (lowest >= 0) return std::vector<double>(r.size(), 0.0);
     const auto solved = solve(A, r, std::move(contacts), -largest_rounding * lowest);
-    if (!solved) return {};
-    std::vector<double> lambda(r.size());
-    for (std::size_t c = 0; c < r.size(); ++c) {
-        const auto row = static_cast<Eigen::Index>(c);
-        if (solved->active[c] && !(std::abs(solved->residual(row)) <= -largest_residual * lowest)) return {};
-        lambda[c] = std::max(0.0, solved->lambda(row));
-    }
+    if (!solved) return lambda;
+    for (std::size_t c = 0; c < r.size(); ++c)
+        lambda[c] = std::max(0.0, solved->lambda(static_cast<Eigen::Index>(c)));
     return lambda;
 }
 

@@ -13,24 +13,16 @@
 namespace jawari {
 namespace {
 
-/// Contact by contact, also where contacts depend on one another.
-std::optional<std::vector<double>> solve_by_single_pivots(const ContactOperator& A,
-                                                          std::span<const double> gap) {
+std::optional<std::vector<double>> forces(const ContactOperator& A, std::span<const double> gap) {
     const std::size_t count = gap.size();
     std::vector<std::uint32_t> candidates(count);
     std::iota(candidates.begin(), candidates.end(), 0U);
     std::vector<double> force(count, 0.0);
+    if (count > largest_factor) force = guess_by_block_pivots(A, gap);
     std::vector<double> residual(count, 0.0);
     LcpWorkspace workspace = make_lcp_workspace(count, {count, count, 0});
     if (!solve_lcp(A, gap, candidates, force, residual, workspace).finished) return {};
     return force;
-}
-
-std::optional<std::vector<double>> forces(const ContactOperator& A, std::span<const double> gap) {
-    if (gap.size() > largest_factor) {
-        if (auto force = solve_by_block_pivots(A, gap)) return force;
-    }
-    return solve_by_single_pivots(A, gap);
 }
 
 }  // namespace

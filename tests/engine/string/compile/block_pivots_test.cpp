@@ -30,16 +30,6 @@ double residual(const Dense& A, const std::vector<double>& r, const std::vector<
     return sum;
 }
 
-void expect_complementary(const Dense& A, const std::vector<double>& r, const std::vector<double>& lambda,
-                          double tolerance) {
-    for (std::size_t i = 0; i < r.size(); ++i) {
-        const double w = residual(A, r, lambda, i);
-        EXPECT_GE(lambda[i], 0) << i;
-        EXPECT_GE(w, -tolerance) << i;
-        EXPECT_TRUE(lambda[i] == 0 || w <= tolerance) << i << ": " << w;
-    }
-}
-
 /// A flexible string of length and tension 1 over n points at height(x): the deflection at x under a unit
 /// force at y is min(x, y) (1 - max(x, y)).
 Dense flexible_string(const std::vector<double>& x) {
@@ -63,20 +53,20 @@ TEST(BlockPivots, TautStringOverAParabola) {
             x[i] = spacing * static_cast<double>(i + 1);
             gap[i] = -(top - bend * (x[i] - 0.5) * (x[i] - 0.5));
         }
-        const auto force = solve_by_block_pivots(flexible_string(x).view(), gap);
-        ASSERT_TRUE(force);
+        const auto force = guess_by_block_pivots(flexible_string(x).view(), gap);
         for (std::size_t i = 0; i < points; ++i) {
             const double inside = std::min(x[i], 1 - x[i]) - tangent;
             if (inside < -spacing) {
-                EXPECT_EQ((*force)[i], 0) << x[i];
+                EXPECT_EQ(force[i], 0) << x[i];
             } else if (inside > spacing) {
-                EXPECT_NEAR((*force)[i], 2 * bend * spacing, 1e-9 * bend) << x[i];
+                EXPECT_NEAR(force[i], 2 * bend * spacing, 1e-9 * bend) << x[i];
             }
         }
     }
 }
 
-TEST(BlockPivots, RandomProblemsEndComplementary) {
+TEST(BlockPivots, RandomProblemsEndNearTheirSolution) {
+    // What single pivots are left with: of hundreds of contacts, some whose sign is wrong.
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> uniform(-1, 1);
     for (const std::size_t size : {1, 20, 64, 65, 300}) {
@@ -90,22 +80,25 @@ TEST(BlockPivots, RandomProblemsEndComplementary) {
         }
         std::vector<double> r(size);
         for (auto& value : r) value = uniform(random);
-        const auto lambda = solve_by_block_pivots(A.view(), r);
-        ASSERT_TRUE(lambda) << size;
-        expect_complementary(A, r, *lambda, 1e-9);
+        const auto lambda = guess_by_block_pivots(A.view(), r);
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < size; ++i) {
+            EXPECT_GE(lambda[i], 0);
+            const double w = residual(A, r, lambda, i);
+            wrong += w < -1e-9 || (lambda[i] > 0 && w > 1e-9) ? 1 : 0;
+        }
+        EXPECT_LE(wrong, size / 2) << size;
     }
 }
 
 TEST(BlockPivots, NothingPenetratesNothingCarries) {
     const std::vector<double> x{0.25, 0.5, 0.75}, gap{0.0, 0.1, 0.2};
-    const auto force = solve_by_block_pivots(flexible_string(x).view(), gap);
-    ASSERT_TRUE(force);
-    EXPECT_EQ(*force, std::vector<double>(3, 0.0));
+    EXPECT_EQ(guess_by_block_pivots(flexible_string(x).view(), gap), std::vector<double>(3, 0.0));
 }
 
-TEST(BlockPivots, DependentContactsAreLeftToOthers) {
+TEST(BlockPivots, OfDependentContactsNothingIsGuessed) {
     const std::vector<double> x{0.5, 0.5}, gap{-0.1, -0.1};
-    EXPECT_FALSE(solve_by_block_pivots(flexible_string(x).view(), gap));
+    EXPECT_EQ(guess_by_block_pivots(flexible_string(x).view(), gap), std::vector<double>(2, 0.0));
 }
 
 }  // namespace
