@@ -45,6 +45,6 @@ const void* get_factory(const char* id) {
 
 }  // namespace jawari::host::clap
 
-extern "C" const clap_plugin_entry_t clap_entry;
+// Declared by CLAP's header, with C linkage.
 const clap_plugin_entry_t clap_entry = {CLAP_VERSION_INIT, jawari::host::clap::init_library,
                                         jawari::host::clap::end_library, jawari::host::clap::get_factory};

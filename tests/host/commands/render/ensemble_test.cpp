@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jawari/instrument/compile.h"
+
 namespace jawari::host {
 namespace {
 
