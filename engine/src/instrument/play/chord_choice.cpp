@@ -53,12 +53,17 @@ void make_room(Matching& m, std::size_t note) {
     std::size_t begin = 0;
     std::size_t end = 0;
     m.seen.fill(false);
+    // Lowest frets first.
     const auto look_at = [&](int key, std::size_t from) {
+        const std::size_t first = end;
         for (std::size_t c = 0; c < count; ++c) {
             if (m.seen[c] || m.blocked[c] || fret_of(m.model, c, key) == no_fret) continue;
             m.seen[c] = true;
             m.came_from[c] = from;
-            m.queue[end++] = c;
+            std::size_t place = end++;
+            for (; place > first && is_lower(m, c, m.queue[place - 1], key); --place)
+                m.queue[place] = m.queue[place - 1];
+            m.queue[place] = c;
         }
     };
     look_at(m.chord[note].key, no_course);
