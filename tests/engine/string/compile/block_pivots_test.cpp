@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <random>
 #include <vector>
 
@@ -46,7 +47,7 @@ TEST(BlockPivots, TautStringOverAParabola) {
     // x_t = sqrt((bend/4 - top)/bend); from there on each point carries 2 bend spacing.
     const double top = 0.01, bend = 0.09;
     const double tangent = std::sqrt((bend / 4 - top) / bend);
-    for (const std::size_t points : {63, 400, 1001}) {
+    for (const std::size_t points : std::initializer_list<std::size_t>{63, 400, 1001}) {
         const double spacing = 1 / static_cast<double>(points + 1);
         std::vector<double> x(points), gap(points);
         for (std::size_t i = 0; i < points; ++i) {
@@ -69,7 +70,7 @@ TEST(BlockPivots, RandomProblemsEndNearTheirSolution) {
     // What single pivots are left with: of hundreds of contacts, some whose sign is wrong.
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> uniform(-1, 1);
-    for (const std::size_t size : {1, 20, 64, 65, 300}) {
+    for (const std::size_t size : std::initializer_list<std::size_t>{1, 20, 64, 65, 300}) {
         Dense B(size), A(size);
         for (auto& value : B.values) value = uniform(random);
         for (std::size_t i = 0; i < size; ++i) {
