@@ -23,10 +23,7 @@ if(JAWARI_SANITIZE)
   add_compile_options(-fsanitize=${JAWARI_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${JAWARI_SANITIZE})
   add_compile_definitions(JAWARI_SANITIZED)  # tests that a sanitizer slows down or contradicts look at it
-  if(JAWARI_SANITIZE STREQUAL "thread")
-    # No kernel knows of threads: one copy does.
-    add_compile_definitions(HWY_COMPILE_ONLY_STATIC)
-  elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     # A copy of the kernels for each width of vectors; those left out are the same source at a width that is there, and an
     # instrumented kernel takes the longest of all files to compile.
     add_compile_definitions("HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3_DL)")
