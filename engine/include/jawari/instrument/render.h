@@ -30,9 +30,9 @@ struct InstrumentOutput {
 /// *Which string*, PlayMode::Keyboard. A key already held on the same channel is excited again on its string.
 /// Else, of the strings that have the note: one without a held note, with the lowest fret; if all are held,
 /// the one longest held by the pedal alone, then the one whose key went down first. Before a held note is
-/// taken, notes that begin in the same frame, one event after the other, move over to other free strings, so
-/// that as many of a chord sound as any choice of strings allows. Strings of a course go together.
-/// PlayMode::Guitar: channel c plays course c. Notes that no string has are ignored and counted.
+/// taken, notes that begin in the same frame, without a note that ends between them, move over to other free
+/// strings, so that as many of a chord sound as any choice of strings allows. Strings of a course go
+/// together. PlayMode::Guitar: channel c plays course c. Notes that no string has are ignored and counted.
 ///
 /// *Which voice.* A note at the fret where its string already sounds excites that voice again. At another
 /// fret it starts a voice from rest, or takes the sounding one over in legato. A string does one thing at a

@@ -10,7 +10,7 @@ constexpr std::size_t no_note = no_course;
 /// The chord so far.
 struct Matching {
     const InstrumentModel& model;
-    std::span<const InstrumentEvent> chord;
+    std::span<const InstrumentEvent> chord;                           ///< and what is between its notes
     ChordCourses& course_of;                                          ///< of each note
     std::array<std::size_t, limits::instrument_strings> note_of{};    ///< of each course, or no_note
     std::array<bool, limits::instrument_strings> blocked{};           ///< courses with a note of before
@@ -79,7 +79,9 @@ void make_room(Matching& m, std::size_t note) {
 
 bool is_repeated(const Matching& m, std::size_t note) {
     for (std::size_t other = 0; other < note; ++other) {
-        if (m.chord[other].key == m.chord[note].key && m.chord[other].channel == m.chord[note].channel)
+        const InstrumentEvent& before = m.chord[other];
+        if (before.type == InstrumentEventType::NoteOn && before.key == m.chord[note].key &&
+            before.channel == m.chord[note].channel)
             return true;
     }
     return false;
@@ -96,7 +98,8 @@ void choose_chord(const InstrumentModel& model, const InstrumentState& state,
     for (std::size_t note = 0; note < chord.size(); ++note) {
         const InstrumentEvent& event = chord[note];
         courses[note] = no_course;
-        if (event.string >= 0 || course_holding(state, event.channel, event.key) != no_course) continue;
+        if (event.type != InstrumentEventType::NoteOn || event.string >= 0) continue;
+        if (course_holding(state, event.channel, event.key) != no_course) continue;
         if (is_repeated(m, note)) continue;  // held by then
         const std::size_t course = free_course(m, event.key);
         if (course != no_course) {

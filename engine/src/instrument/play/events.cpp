@@ -259,11 +259,23 @@ bool is_valid(const InstrumentEvent& event) {
            event.key >= (any_key ? -1 : 0) && event.key <= 127 && has_valid_value(event);
 }
 
-/// Note-ons that are matched with the others that begin with them: not those of legato, which go on where
-/// their channel's last note is.
+/// Whether notes before and after the event are of one chord: all but those that free a string or change
+/// whether notes continue others. Notes in legato go on where their channel's last note is.
 bool is_of_chord(const InstrumentState& state, const InstrumentEvent& event) {
-    return event.type == InstrumentEventType::NoteOn && event.value > 0 && is_valid(event) &&
-           !plays_legato(state, channel_of(state, event.channel));
+    switch (event.type) {
+        case InstrumentEventType::NoteOn:
+            return event.value > 0 && is_valid(event) &&
+                   !plays_legato(state, channel_of(state, event.channel));
+        case InstrumentEventType::Bend:
+        case InstrumentEventType::Pressure:
+        case InstrumentEventType::Timbre:
+        case InstrumentEventType::SoftPedal:
+            return true;
+        case InstrumentEventType::SetParameter:
+            return event.parameter != ParameterId::Legato;
+        default:
+            return false;
+    }
 }
 
 void apply_event(const InstrumentModel& model, InstrumentState& state, const InstrumentEvent& event,
@@ -323,7 +335,8 @@ void apply_events(const InstrumentModel& model, InstrumentState& state,
         }
         ChordCourses chosen;
         choose_chord(model, state, events.subspan(i, end - i), chosen);
-        for (std::size_t note = 0; i < end; ++i, ++note) apply_event(model, state, events[i], chosen[note]);
+        for (std::size_t event = 0; i < end; ++i, ++event)
+            apply_event(model, state, events[i], chosen[event]);
     }
 }
 

@@ -73,6 +73,20 @@ TEST(Chord, HeldNotesAreNotTakenWhereTheChordCanMove) {
     EXPECT_EQ(state.counters.stolen_notes, 0U);
 }
 
+TEST(Chord, BendsAndPressuresBetweenItsNotesDoNotPartIt) {
+    // As MPE senders have it: each note on a channel of its own, with its bend and pressure.
+    const InstrumentState state =
+        played({bend_channel(0, 0.5, 1), note_on(0, 50, 0.2, 1), press_channel(0, 0.3, 1),
+                bend_channel(0, -0.5, 2), set_timbre(0, 0.4, 2), note_on(0, 62, 0.2, 2)});
+    EXPECT_EQ(sounding_keys(state), (std::vector{50, 62}));
+    EXPECT_EQ(state.counters.stolen_notes, 0U);
+}
+
+TEST(Chord, AReleasePartsIt) {
+    const InstrumentState state = played({note_on(0, 50, 0.2), note_off(0, 40, 0.5), note_on(0, 62, 0.2)});
+    EXPECT_EQ(sounding_keys(state), (std::vector{62}));
+}
+
 TEST(Chord, AKeyThatIsThereTwiceIsOneNote) {
     const InstrumentState state = played({note_on(0, 50, 0.2), note_on(0, 50, 0.3), note_on(0, 62, 0.2)});
     EXPECT_EQ(sounding_keys(state), (std::vector{50, 62}));
