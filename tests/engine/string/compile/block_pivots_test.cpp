@@ -66,11 +66,10 @@ TEST(BlockPivots, TautStringOverAParabola) {
     }
 }
 
-TEST(BlockPivots, RandomProblemsEndNearTheirSolution) {
-    // What single pivots are left with: of hundreds of contacts, some whose sign is wrong.
+TEST(BlockPivots, UpToAFewHundredContactsEndSolved) {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> uniform(-1, 1);
-    for (const std::size_t size : std::initializer_list<std::size_t>{1, 20, 64, 65, 300}) {
+    for (const std::size_t size : std::initializer_list<std::size_t>{1, 20, 64, 65, 130, 256}) {
         Dense B(size), A(size);
         for (auto& value : B.values) value = uniform(random);
         for (std::size_t i = 0; i < size; ++i) {
@@ -82,13 +81,12 @@ TEST(BlockPivots, RandomProblemsEndNearTheirSolution) {
         std::vector<double> r(size);
         for (auto& value : r) value = uniform(random);
         const auto lambda = guess_by_block_pivots(A.view(), r);
-        std::size_t wrong = 0;
         for (std::size_t i = 0; i < size; ++i) {
-            EXPECT_GE(lambda[i], 0);
             const double w = residual(A, r, lambda, i);
-            wrong += w < -1e-9 || (lambda[i] > 0 && w > 1e-9) ? 1 : 0;
+            EXPECT_GE(lambda[i], 0) << size;
+            EXPECT_GE(w, -1e-9) << size;
+            EXPECT_TRUE(lambda[i] == 0 || w < 1e-9) << size << ": " << w;
         }
-        EXPECT_LE(wrong, size / 2) << size;
     }
 }
 
