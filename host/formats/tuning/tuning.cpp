@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "base/input_file.h"
 #include "base/text.h"
@@ -35,12 +36,16 @@ bool is_tun(const std::string& path) {
 }
 
 template <class T>
-Outcome<T> load(const std::string& path, Result<T> (*parse)(std::string_view)) {
-    const auto text = read_file(path, longest_scala_file_bytes);
+Outcome<T> parsed(const NamedText& file, Result<T> (*parse)(std::string_view)) {
+    auto result = parse(file.text);
+    if (!result) return invalid_input(file.name, result.failure());
+    return std::move(result.value());
+}
+
+Outcome<NamedText> load(const std::string& path) {
+    auto text = read_file(path, longest_scala_file_bytes);
     if (!text) return text.error();
-    auto parsed = parse(text.value());
-    if (!parsed) return invalid_input(path, parsed.failure());
-    return std::move(parsed.value());
+    return NamedText{path, std::move(text.value())};
 }
 
 }  // namespace
@@ -95,19 +100,27 @@ Result<KeyFrequencies> parse_scale_alone(std::string_view text) {
 
 }  // namespace
 
-Outcome<KeyFrequencies> load_tuning(const std::string& scale, const std::string& keyboard_map) {
-    if (is_tun(scale) && !keyboard_map.empty())
-        return usage_error("--keyboard-map", keyboard_map,
+Outcome<KeyFrequencies> read_tuning(const NamedText& scale, const std::optional<NamedText>& keyboard_map) {
+    if (!keyboard_map) return parsed(scale, is_tun(scale.name) ? parse_tun : parse_scale_alone);
+    if (is_tun(scale.name))
+        return usage_error("--keyboard-map", keyboard_map->name,
                            "none with a .tun file, which has the pitch of each key");
-    if (keyboard_map.empty())
-        return load<KeyFrequencies>(scale, is_tun(scale) ? parse_tun : parse_scale_alone);
-    const auto notes = load<Scale>(scale, parse_scale);
+    const auto notes = parsed(scale, parse_scale);
     if (!notes) return notes.error();
-    const auto map = load<KeyboardMap>(keyboard_map, parse_keyboard_map);
+    const auto map = parsed(*keyboard_map, parse_keyboard_map);
     if (!map) return map.error();
     auto frequencies = tune(notes.value(), map.value());
-    if (!frequencies) return invalid_input(keyboard_map, frequencies.failure());
+    if (!frequencies) return invalid_input(keyboard_map->name, frequencies.failure());
     return frequencies.value();
+}
+
+Outcome<KeyFrequencies> load_tuning(const std::string& scale, const std::string& keyboard_map) {
+    const auto pitches = load(scale);
+    if (!pitches) return pitches.error();
+    if (keyboard_map.empty()) return read_tuning(pitches.value(), std::nullopt);
+    const auto map = load(keyboard_map);
+    if (!map) return map.error();
+    return read_tuning(pitches.value(), map.value());
 }
 
 }  // namespace jawari::host

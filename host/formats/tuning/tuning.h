@@ -1,6 +1,7 @@
 // A scale on a keyboard: the frequency of each of the 128 MIDI keys.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "base/error.h"
@@ -20,6 +21,14 @@ Result<KeyFrequencies> tune(const Scale& scale, const KeyboardMap& map);
 
 /// As the lines say that Ableton adds to a scale: where its notes lie and which of them there are.
 Result<KeyFrequencies> tune(const Scale& scale, const AbletonLines& lines);
+
+/// A file's text, and the name that messages give it.
+struct NamedText {
+    std::string name, text;
+};
+
+/// load_tuning() from texts; the scale's name tells whether it is a .tun file.
+Outcome<KeyFrequencies> read_tuning(const NamedText& scale, const std::optional<NamedText>& keyboard_map);
 
 /// `scale`: a Scala scale, with what Ableton adds to it, or a .tun file. An empty `keyboard_map` path stands
 /// for the default map; .tun files take none. Messages name file and line.

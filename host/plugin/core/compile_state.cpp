@@ -7,23 +7,13 @@ namespace jawari::host {
 
 namespace {
 
-template <class T>
-Outcome<T> parsed(Result<T> result, const char* part) {
-    if (!result) return invalid_input(part, result.failure());
-    return std::move(result.value());
-}
-
-Outcome<std::optional<KeyFrequencies>> read_tuning(const PluginState& state) {
-    if (state.scale_text.empty()) return std::optional<KeyFrequencies>();
-    const auto scale = parsed(parse_scale(state.scale_text), "scale");
-    if (!scale) return scale.error();
-    KeyboardMap map;
-    if (!state.keyboard_text.empty()) {
-        auto read = parsed(parse_keyboard_map(state.keyboard_text), "keyboard map");
-        if (!read) return read.error();
-        map = std::move(read.value());
-    }
-    const auto tuned = parsed(tune(scale.value(), map), "keyboard map");
+Outcome<std::optional<KeyFrequencies>> tuning_of(const PluginState& state) {
+    if (state.scale_text.empty() && state.tun_text.empty()) return std::optional<KeyFrequencies>();
+    NamedText scale{"scale", state.scale_text};
+    if (!state.tun_text.empty()) scale = {"scale.tun", state.tun_text};
+    std::optional<NamedText> keyboard_map;
+    if (!state.keyboard_text.empty()) keyboard_map = NamedText{"keyboard map", state.keyboard_text};
+    const auto tuned = read_tuning(scale, keyboard_map);
     if (!tuned) return tuned.error();
     return std::optional<KeyFrequencies>(tuned.value());
 }
@@ -35,7 +25,7 @@ Outcome<CompiledState> compile_state(const PluginState& state, Quality quality, 
     settings.output_rate_hz = rate_hz;
     settings.quality = quality;
     settings.move_frets = state.move_frets;
-    auto tuning = read_tuning(state);
+    auto tuning = tuning_of(state);
     if (!tuning) return tuning.error();
     settings.tuning = tuning.value();
     CompiledState compiled;
@@ -57,7 +47,7 @@ Outcome<CompiledState> compile_state(const PluginState& state, Quality quality, 
 }
 
 bool compile_alike(const PluginState& a, const PluginState& b) {
-    return a.preset_text == b.preset_text && a.scale_text == b.scale_text &&
+    return a.preset_text == b.preset_text && a.scale_text == b.scale_text && a.tun_text == b.tun_text &&
            a.keyboard_text == b.keyboard_text && a.move_frets == b.move_frets &&
            a.midi_map_text == b.midi_map_text && a.guitar_channel == b.guitar_channel;
 }

@@ -148,8 +148,13 @@ MaybeError PluginCore::load_file(const std::string& path) {
     PluginState state = state_;
     for (const ParameterDeclaration& parameter : parameter_table())
         state.parameters[static_cast<std::size_t>(parameter.id)] = value(parameter.id);
-    if (ends_in(path, ".scl")) {
+    if (ends_in(path, ".scl") || ends_in(path, ".ascl")) {
         state.scale_text = text;
+        state.tun_text.clear();
+    } else if (ends_in(path, ".tun")) {
+        state.tun_text = text;
+        state.scale_text.clear();
+        state.keyboard_text.clear();
     } else if (ends_in(path, ".kbm")) {
         state.keyboard_text = text;
     } else if (text.find("\"jawari.midi-map/") != std::string::npos) {

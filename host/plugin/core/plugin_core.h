@@ -65,8 +65,8 @@ class PluginCore {
     MaybeError load(const PluginState& state);
     /// A preset's text, with all parameters neutral.
     MaybeError load_preset(const std::string& name, const std::string& text);
-    /// A file that this instance takes up: a preset or a MIDI map (.json), a scale (.scl), a keyboard map
-    /// (.kbm).
+    /// A file that this instance takes up: a preset or a MIDI map (.json), a scale (.scl, .ascl), a keyboard
+    /// map (.kbm), a tuning of all keys (.tun).
     MaybeError load_file(const std::string& path);
 
     /// Offline the state's offline quality is in force.

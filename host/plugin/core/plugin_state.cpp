@@ -42,8 +42,9 @@ void read_preset_part(const Value& value, const std::string& path, PluginState& 
 }
 
 void read_tuning(const Value& value, const std::string& path, PluginState& state, Problems& problems) {
-    ObjectReader reader(value, path, {"scale", "keyboard_map", "move_frets"}, problems);
+    ObjectReader reader(value, path, {"scale", "tun", "keyboard_map", "move_frets"}, problems);
     state.scale_text = reader.text_or("scale", "");
+    state.tun_text = reader.text_or("tun", "");
     state.keyboard_text = reader.text_or("keyboard_map", "");
     if (reader.has("move_frets")) state.move_frets = reader.flag("move_frets");
 }
@@ -91,6 +92,7 @@ std::string write_plugin_state(const PluginState& state) {
         {"parameters", parameters},
         {"tuning",
          {{"scale", state.scale_text},
+          {"tun", state.tun_text},
           {"keyboard_map", state.keyboard_text},
           {"move_frets", state.move_frets}}},
         {"midi_map", state.midi_map_text},

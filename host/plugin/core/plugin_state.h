@@ -15,13 +15,14 @@
 namespace jawari::host {
 
 struct PluginState {
-    std::string preset_name;                    ///< for people; may be empty
-    std::string preset_text;                    ///< of a preset file
-    std::string scale_text;                     ///< of a .scl file; empty: as the preset is tuned
-    std::string keyboard_text;                  ///< of a .kbm file; empty: the default map
-    bool move_frets = false;                    ///< the scale moves the frets
-    std::string midi_map_text;                  ///< of a MIDI map file; empty: the default map
-    int guitar_channel = 0;                     ///< 1 to 16: guitar mode begins there; 0: none
+    std::string preset_name;    ///< for people; may be empty
+    std::string preset_text;    ///< of a preset file
+    std::string scale_text;     ///< of a .scl or .ascl file; it and tun_text empty: as the preset is tuned
+    std::string tun_text;       ///< of a .tun file, in place of scale and keyboard map
+    std::string keyboard_text;  ///< of a .kbm file; empty: the default map
+    bool move_frets = false;    ///< the scale moves the frets
+    std::string midi_map_text;  ///< of a MIDI map file; empty: the default map
+    int guitar_channel = 0;     ///< 1 to 16: guitar mode begins there; 0: none
     Quality quality = Quality::Live;            ///< while somebody plays
     Quality offline_quality = Quality::Studio;  ///< while the host renders offline
     std::array<double, parameter_count> parameters = neutral_parameters();  ///< by id, in their units

@@ -243,28 +243,63 @@ TEST(ClapPresets, FilesOfAllKindsAreTakenUp) {
     EXPECT_EQ(kept()["preset"]["name"], "mine");
 }
 
-/// A scale of seven equal steps puts the key above middle C at 261.63 x 2^(1/7).
-TEST(ClapPresets, AScaleIsHeard) {
+struct TuningCase {
+    const char* file;
+    std::string text;
+    double hz;  ///< of the key above middle C
+};
+
+/// Seven equal steps to the octave, from middle C as usual, from 270 Hz by Ableton's lines, and as AnaMark's
+/// cents above 8.1758 Hz.
+std::vector<TuningCase> sevenths() {
+    const std::string seven = "s\n 7\n171.4286\n342.8571\n514.2857\n685.7143\n857.1429\n1028.5714\n2/1\n";
+    const double step = std::exp2(1.0 / 7);
+    return {{"s.scl", seven, 261.6256 * step},
+            {"s.ascl", seven + "! @ABL REFERENCE_PITCH 3 0 270\n", 270 * step},
+            {"s.tun", "[Exact Tuning]\nnote 61=6171.4286\n", 261.6256 * step}};
+}
+
+TEST(ClapPresets, TuningsOfAllKindsAreHeard) {
+    for (const TuningCase& each : sevenths()) {
+        const test::TemporaryFolder folder;
+        const std::string path = folder.write(each.file, each.text);
+        ClapInstance one;
+        ASSERT_TRUE(one.load(small_state("dulcimer")));
+        const auto& loader = one.get<clap::PluginPresetLoad>(clap::preset_load_id);
+        ASSERT_TRUE(loader.from_location(one.plugin, clap::location_file, path.c_str(), nullptr)) << one.log;
+        ASSERT_TRUE(one.activate());
+        one.events.note_on(0, 61, 0.7);
+        one.render(48000);
+        const auto strength = [&](double hz) {
+            double real = 0, imaginary = 0;
+            for (std::size_t n = 0; n < one.left.size(); ++n) {
+                const double turn = 6.283185307179586 * hz * static_cast<double>(n) / 48000;
+                real += static_cast<double>(one.left[n]) * std::cos(turn);
+                imaginary += static_cast<double>(one.left[n]) * std::sin(turn);
+            }
+            return std::hypot(real, imaginary);
+        };
+        EXPECT_GT(strength(each.hz), 4 * strength(277.18)) << each.file;
+        EXPECT_GT(strength(each.hz), 4 * strength(1.03 * each.hz)) << each.file;
+    }
+}
+
+/// One tuning takes the other's place.
+TEST(ClapPresets, ATunFileStandsInPlaceOfScaleAndMap) {
     const test::TemporaryFolder folder;
-    const std::string path =
-        folder.write("s.scl", "s\n 7\n171.4286\n342.8571\n514.2857\n685.7143\n857.1429\n1028.5714\n2/1\n");
     ClapInstance one;
-    ASSERT_TRUE(one.load(small_state("dulcimer")));
     const auto& loader = one.get<clap::PluginPresetLoad>(clap::preset_load_id);
-    ASSERT_TRUE(loader.from_location(one.plugin, clap::location_file, path.c_str(), nullptr)) << one.log;
-    ASSERT_TRUE(one.activate());
-    one.events.note_on(0, 61, 0.7);
-    one.render(48000);
-    const auto strength = [&](double hz) {
-        double real = 0, imaginary = 0;
-        for (std::size_t n = 0; n < one.left.size(); ++n) {
-            const double turn = 6.283185307179586 * hz * static_cast<double>(n) / 48000;
-            real += static_cast<double>(one.left[n]) * std::cos(turn);
-            imaginary += static_cast<double>(one.left[n]) * std::sin(turn);
-        }
-        return std::hypot(real, imaginary);
+    const auto tuning_with = [&](const TuningCase& each) {
+        const std::string path = folder.write(each.file, each.text);
+        EXPECT_TRUE(loader.from_location(one.plugin, clap::location_file, path.c_str(), nullptr)) << one.log;
+        return ordered_json::parse(one.save())["tuning"];
     };
-    EXPECT_GT(strength(261.6256 * std::exp2(1.0 / 7)), 4 * strength(277.18));
+    const std::vector<TuningCase> cases = sevenths();
+    EXPECT_EQ(tuning_with(cases[0])["scale"], cases[0].text);
+    const auto tun = tuning_with(cases[2]);
+    EXPECT_EQ(tun["tun"], cases[2].text);
+    EXPECT_EQ(tun["scale"], "");
+    EXPECT_EQ(tuning_with(cases[1])["tun"], "");
 }
 
 struct Found {

@@ -35,6 +35,7 @@ TEST(PluginState, AnyStateReadsBackBitForBit) {
         state.preset_name = "with \"quotes\" \x01 and \xC3\xA9";
         state.scale_text = "! x.scl\n\n2\n3/2\n2/1\n";
         state.keyboard_text = n % 2 == 0 ? "" : "\t\\";
+        state.tun_text = n % 5 == 0 ? "[Tuning]" : "";
         state.move_frets = n % 3 == 0;
         state.midi_map_text = "{}";
         state.guitar_channel = n % 17;
