@@ -6,7 +6,7 @@
 Touching: a string at rest on a parabolic obstacle of so many points, all of which carry it. Open: the same obstacle far below
 a string that vibrates; with skipping, and with --no-skip all, where each step evaluates every contact. The cost of a step is
 the difference of the processor time of two runs of the program that differ in their length; programs take turns, and the
-least of the repetitions counts. A run whose solves were truncated is marked.
+least of the repetitions counts. A run whose solves were truncated is marked. Compiling: processor time of the longer run.
 """
 import json
 import os
@@ -49,7 +49,7 @@ def run(program, path, options):
 
 
 def cost(program, folder, contacts, touching, options):
-    """Microseconds a step, and the number of truncated solves."""
+    """Microseconds a step, the number of truncated solves, and processor seconds of compiling."""
     times = []
     steps = CASES[contacts] * (1 if touching else OPEN_STEPS)
     for length in (4, 4 + steps):
@@ -58,7 +58,7 @@ def cost(program, folder, contacts, touching, options):
             json.dump(scene(contacts, touching, length), file)
         times.append(run(program, path, options))
     (short, _), (long, stats) = times
-    return max(0.0, long - short) * 1e6 / steps, stats["truncated_solves"]
+    return max(0.0, long - short) * 1e6 / steps, stats["truncated_solves"], stats["cpu_compile_s"]
 
 
 def main():
@@ -66,16 +66,16 @@ def main():
     if not programs:
         sys.exit("contact_cost.py: name a program, such as build/release/bin/jawari")
     rows = [("touching", True, []), ("open", False, []), ("open, nothing skipped", False, ["--no-skip", "all"])]
-    print("| contacts | string |" + "".join(f" {program} [us a step] |" for program in programs))
-    print("|---|---|" + "---|" * len(programs))
+    print("| contacts | string |" + "".join(f" {program} [us a step] | compile [s] |" for program in programs))
+    print("|---|---|" + "---|---|" * len(programs))
     with tempfile.TemporaryDirectory() as folder:
         for contacts in CASES:
             for name, touching, options in rows:
-                best = {program: (float("inf"), 0) for program in programs}
+                best = {program: (float("inf"), 0, 0.0) for program in programs}
                 for _ in range(REPEATS if contacts < 1000 else 1):
                     for program in programs:
                         best[program] = min(best[program], cost(program, folder, contacts, touching, options))
-                cells = "".join(f" {us:.3g}{' (truncated)' if lost else ''} |" for us, lost in best.values())
+                cells = "".join(f" {us:.3g}{' (truncated)' if lost else ''} | {compile_s:.2g} |" for us, lost, compile_s in best.values())
                 print(f"| {contacts} | {name} |{cells}", flush=True)
 
 

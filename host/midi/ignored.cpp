@@ -19,6 +19,11 @@ constexpr std::array<std::pair<int, std::string_view>, 31> controllers{
      {84, "portamento from"}, {91, "reverb"},        {92, "tremolo"},       {93, "chorus"},
      {94, "detune"},          {95, "phaser"},        {7, "volume"}}};
 
+std::string data_kind(const MidiChannel& channel) {
+    const std::string number = std::to_string(channel.number_msb) + "/" + std::to_string(channel.number_lsb);
+    return channel.target == DataTarget::Registered ? "RPN " + number : "NRPN " + number;
+}
+
 }  // namespace
 
 std::string controller_kind(int controller) {
@@ -30,15 +35,6 @@ std::string controller_kind(int controller) {
     if (!name.empty()) text.append(" (").append(name).append(")");
     return text;
 }
-
-namespace {
-
-std::string data_kind(const MidiChannel& channel) {
-    const std::string number = std::to_string(channel.number_msb) + "/" + std::to_string(channel.number_lsb);
-    return channel.target == DataTarget::Registered ? "RPN " + number : "NRPN " + number;
-}
-
-}  // namespace
 
 std::string ignored_kind(const MidiInterpreter& interpreter, const ChannelMessage& message) {
     if (kind_of(message) == MessageKind::NoteOn) return "notes moved beyond the keys 0 to 127";

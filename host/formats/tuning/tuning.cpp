@@ -48,6 +48,15 @@ Outcome<NamedText> load(const std::string& path) {
     return NamedText{path, std::move(text.value())};
 }
 
+/// Where a scale lies without a keyboard map.
+Result<KeyFrequencies> parse_scale_alone(std::string_view text) {
+    const auto scale = parse_scale(text);
+    if (!scale) return scale.failure();
+    const auto lines = parse_ableton_lines(text, scale.value());
+    if (!lines) return lines.failure();
+    return tune(scale.value(), lines.value());
+}
+
 }  // namespace
 
 Result<KeyFrequencies> tune(const Scale& scale, const KeyboardMap& map) {
@@ -86,19 +95,6 @@ Result<KeyFrequencies> tune(const Scale& scale, const AbletonLines& lines) {
     }
     return tuned;
 }
-
-namespace {
-
-/// Where a scale lies without a keyboard map.
-Result<KeyFrequencies> parse_scale_alone(std::string_view text) {
-    const auto scale = parse_scale(text);
-    if (!scale) return scale.failure();
-    const auto lines = parse_ableton_lines(text, scale.value());
-    if (!lines) return lines.failure();
-    return tune(scale.value(), lines.value());
-}
-
-}  // namespace
 
 Outcome<KeyFrequencies> read_tuning(const NamedText& scale, const std::optional<NamedText>& keyboard_map) {
     if (!keyboard_map) return parsed(scale, is_tun(scale.name) ? parse_tun : parse_scale_alone);
