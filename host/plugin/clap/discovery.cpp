@@ -9,9 +9,9 @@
 
 #include "base/builtin.h"
 #include "base/input_file.h"
-#include "formats/json/parse.h"
 #include "instrument/preset_library.h"
 #include "plugin/clap/instance.h"
+#include "plugin/core/preset_facts.h"
 
 namespace jawari::host::clap {
 
@@ -26,33 +26,9 @@ struct Provider {
     std::vector<PresetFolder> folders;
 };
 
-struct Facts {
-    std::string name, comment;
-};
-
-/// What a preset says of itself; nothing if it is none.
-std::optional<Facts> facts_of(std::string_view text, const std::string& file) {
-    const auto document = json::parse(text, file);
-    if (!document) return std::nullopt;
-    const auto* object = std::get_if<json::Object>(&document.value().content);
-    if (object == nullptr) return std::nullopt;
-    const auto text_of = [&](const char* key) {
-        const json::Value* const value = json::find(*object, key);
-        const auto* words = value == nullptr ? nullptr : std::get_if<std::string>(&value->content);
-        return words == nullptr ? std::string() : *words;
-    };
-    if (!text_of("schema").starts_with("jawari.preset/")) return std::nullopt;
-    Facts facts{text_of("name"), text_of("comment")};
-    const json::Value* const comment = json::find(*object, "comment");
-    const auto* lines = comment == nullptr ? nullptr : std::get_if<json::Array>(&comment->content);
-    for (std::size_t i = 0; lines != nullptr && i < lines->size(); ++i)
-        if (const auto* line = std::get_if<std::string>(&(*lines)[i].content))
-            facts.comment += (facts.comment.empty() ? "" : "\n") + *line;
-    return facts;
-}
-
 /// False if the host wants no more.
-bool tell(const MetadataReceiver& receiver, const Facts& facts, const char* load_key, std::uint32_t flags) {
+bool tell(const MetadataReceiver& receiver, const PresetFacts& facts, const char* load_key,
+          std::uint32_t flags) {
     if (!receiver.begin_preset(&receiver, facts.name.c_str(), load_key)) return false;
     const UniversalPluginId id{"clap", plugin_id};
     receiver.add_plugin_id(&receiver, &id);
@@ -65,7 +41,7 @@ bool tell(const MetadataReceiver& receiver, const Facts& facts, const char* load
 bool tell_factory(const MetadataReceiver& receiver) {
     for (const BuiltinFile& file : builtin_files("instruments")) {
         const std::string key(file.name);
-        const auto facts = facts_of(file.text, key);
+        const auto facts = preset_facts(file.text, key);
         if (facts && !tell(receiver, *facts, key.c_str(), factory_content)) return true;
     }
     return true;
@@ -77,7 +53,7 @@ bool tell_file(const MetadataReceiver& receiver, const std::string& path) {
         receiver.on_error(&receiver, 0, text.error().message.c_str());
         return false;
     }
-    const auto facts = facts_of(text.value(), path);
+    const auto facts = preset_facts(text.value(), path);
     if (facts) tell(receiver, *facts, nullptr, user_content);
     return facts.has_value();
 }

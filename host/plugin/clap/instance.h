@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "plugin/clap/extensions.h"
+#include "plugin/core/guarded.h"
 #include "plugin/core/plugin_core.h"
 
 namespace jawari::host::clap {
@@ -48,16 +49,6 @@ void log_error_of(const Instance& instance, const Error& error);
 
 /// The host asks for all values again: a state or preset has set them.
 void announce_values(const Instance& instance);
-
-/// false if the function throws: memory can run out wherever files are read and models compiled.
-template <class Function>
-bool guarded(Function function) noexcept {
-    try {
-        return function();
-    } catch (...) {
-        return false;
-    }
-}
 
 // Of the other files of this folder, for Instance's get_extension().
 const void* audio_ports_extension();

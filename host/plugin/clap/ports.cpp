@@ -12,9 +12,6 @@ namespace jawari::host::clap {
 
 namespace {
 
-/// After its last note an instrument is silent by then, as `jawari render` has it.
-constexpr double longest_tail_s = 60;
-
 template <std::size_t size>
 void write(char (&place)[size], const char* text) {
     std::snprintf(place, size, "%s", text);
@@ -62,7 +59,7 @@ std::uint32_t latency(const clap_plugin_t* /*plugin*/) {
 }
 
 std::uint32_t tail(const clap_plugin_t* plugin) {
-    return static_cast<std::uint32_t>(std::ceil(longest_tail_s * instance_of(plugin).rate_hz));
+    return static_cast<std::uint32_t>(std::ceil(plugin_tail_s * instance_of(plugin).rate_hz));
 }
 
 bool needs_real_time(const clap_plugin_t* /*plugin*/) {

@@ -40,6 +40,10 @@ std::optional<PluginExpression> expression_of(clap_note_expression expression) {
             return PluginExpression::Pressure;
         case CLAP_NOTE_EXPRESSION_BRIGHTNESS:
             return PluginExpression::Brightness;
+        case CLAP_NOTE_EXPRESSION_VOLUME:
+            return PluginExpression::Volume;
+        case CLAP_NOTE_EXPRESSION_PAN:
+            return PluginExpression::Pan;
         default:
             return std::nullopt;
     }

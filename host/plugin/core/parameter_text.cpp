@@ -97,4 +97,15 @@ std::optional<double> parameter_from_text(ParameterId parameter, std::string_vie
     return std::clamp(*number / display.factor, declared.low, declared.high);
 }
 
+const std::vector<std::string_view>& parameter_groups() {
+    static const std::vector<std::string_view> groups = [] {
+        std::vector<std::string_view> names;
+        for (const ParameterDeclaration& parameter : parameter_table())
+            if (std::find(names.begin(), names.end(), parameter.group) == names.end())
+                names.push_back(parameter.group);
+        return names;
+    }();
+    return groups;
+}
+
 }  // namespace jawari::host

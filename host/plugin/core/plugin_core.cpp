@@ -17,6 +17,10 @@ constexpr double lowest_rate_hz = 8000;
 constexpr double highest_rate_hz = 384000;
 constexpr std::size_t longest_file_bytes = std::size_t{4} << 20U;
 
+bool is_rate(double rate_hz) {
+    return rate_hz >= lowest_rate_hz && rate_hz <= highest_rate_hz;
+}
+
 bool ends_in(const std::string& path, std::string_view extension) {
     return lower_case(path).ends_with(extension);
 }
@@ -56,8 +60,8 @@ std::unique_ptr<StagedInstrument> PluginCore::staged() const {
 /// Compiles unless nothing would change, and sends the new instrument to the stage.
 MaybeError PluginCore::put(const PluginState& state, bool offline, double rate_hz) {
     const Quality quality = offline ? state.offline_quality : state.quality;
-    const bool known = compiled_.instrument != nullptr && compiled_rate_hz_ == rate_hz &&
-                       compiled_quality_ == quality && compile_alike(state_, state);
+    const bool known = compiled() && compiled_rate_hz_ == rate_hz && compiled_quality_ == quality &&
+                       compile_alike(state_, state);
     if (!known) {
         collect();
         if (active_ && published_ == most_staged_instruments)
@@ -79,9 +83,12 @@ void PluginCore::publish() {
     if (unheard == nullptr) published_ += 1;
 }
 
+void PluginCore::expect_rate(double rate_hz) {
+    if (is_rate(rate_hz)) rate_hz_ = rate_hz;
+}
+
 MaybeError PluginCore::activate(double rate_hz) {
-    if (!(rate_hz >= lowest_rate_hz && rate_hz <= highest_rate_hz))
-        return usage_error("sample rate", shortest(rate_hz), "8000 to 384000 Hz");
+    if (!is_rate(rate_hz)) return usage_error("sample rate", shortest(rate_hz), "8000 to 384000 Hz");
     deactivate();
     if (auto error = put(state_, offline_, rate_hz)) return error;
     rate_hz_ = rate_hz;

@@ -1,5 +1,6 @@
 // One instance of the plugin, whatever the format: parameters, state, and sound block by block from events
-// that are stamped with frames. Adapters (plugin/clap, plugin/dpf) translate what their hosts say.
+// that are stamped with frames. Adapters (plugin/clap, plugin/vst3, plugin/lv2) translate what their hosts
+// say.
 #pragma once
 
 #include <array>
@@ -25,6 +26,9 @@ namespace jawari::host {
 /// Channels of the output for single strings: string n plays on channel n, all beyond on the last.
 inline constexpr std::size_t plugin_string_channels = 16;
 
+/// After its last note an instrument is silent by then, as `jawari render` has it [s].
+inline constexpr double plugin_tail_s = 60;
+
 /// Where a block goes. Null: not wanted. Either the pointers to float or those to double of a channel.
 struct PluginOutput {
     std::array<float*, 2> main{};
@@ -35,9 +39,11 @@ struct PluginOutput {
 
 /// Note expressions that the engine has.
 enum class PluginExpression {
-    Tuning,     ///< semitones above the key, -96 to 96
-    Pressure,   ///< 0 to 1
-    Brightness  ///< 0 to 1, 0.5 is neutral: of the next plucks of the note's channel
+    Tuning,      ///< semitones above the key, -96 to 96
+    Pressure,    ///< 0 to 1
+    Brightness,  ///< 0 to 1, 0.5 is neutral: of the next plucks of the note's channel
+    Volume,      ///< 0 to 4, 1 is neutral: factor of the note's sound
+    Pan          ///< 0 (left) to 1 (right), 0.5 is neutral: added to the note's place
 };
 
 /// Threads: the control thread (the host's main thread) and the audio thread, each one at a time; both at
@@ -53,6 +59,10 @@ class PluginCore {
     PluginCore& operator=(PluginCore&&) = delete;
 
     // ---- control thread. Everything here may allocate and compile; a failure changes nothing.
+
+    /// The rate for which states are compiled before the first activate(): 48000 Hz unless told. One that
+    /// activate() would refuse is not taken.
+    void expect_rate(double rate_hz);
 
     /// Compiles for the rate (8000 to 384000 [Hz]) unless that has been done before, and makes room.
     MaybeError activate(double rate_hz);
@@ -81,6 +91,8 @@ class PluginCore {
     void collect();
 
     [[nodiscard]] const PluginState& state() const { return state_; }
+    /// Whether the state's model exists: not before a load or an activation.
+    [[nodiscard]] bool compiled() const { return compiled_.instrument != nullptr; }
 
     // ---- audio thread, while active
 

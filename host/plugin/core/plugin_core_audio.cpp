@@ -199,6 +199,13 @@ void PluginCore::express(PluginExpression expression, const NoteAddress& which, 
             case PluginExpression::Brightness:
                 stage_->add(set_timbre(0, share(value), channel), at);
                 break;
+            case PluginExpression::Volume:
+                stage_->add(set_note_level(0, note.sounds, std::clamp(value, 0.0, most_note_level), channel),
+                            at);
+                break;
+            case PluginExpression::Pan:
+                stage_->add(set_note_pan(0, note.sounds, 2 * share(value) - 1, channel), at);
+                break;
         }
     });
 }

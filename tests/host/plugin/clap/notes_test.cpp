@@ -235,6 +235,31 @@ TEST(ClapExpressions, OfNotesThatItDoesNotKnowAreLeftAlone) {
 
 /// Channel 2 is an ordinary channel until a message makes it one of a zone: its wheel spans 2 semitones,
 /// not 48.
+/// Of one note of two, by its id: half as loud, and on the left alone.
+TEST(ClapExpressions, VolumeAndPanAreTheNotesOwn) {
+    ClapInstance plain, expressed;
+    for (ClapInstance* each : {&plain, &expressed}) {
+        each->strings_wanted = 0;
+        ASSERT_TRUE(each->load(small_state()));
+        ASSERT_TRUE(each->activate());
+        each->events.note_on(0, 33, 0.8, 1);
+        each->process(0);
+    }
+    expressed.events.expression(0, CLAP_NOTE_EXPRESSION_VOLUME, 33, 0.5, 1);
+    expressed.events.expression(0, CLAP_NOTE_EXPRESSION_PAN, 33, 0, 1);
+    expressed.events.expression(0, CLAP_NOTE_EXPRESSION_VOLUME, 33, 0.1, 7);  // of no note
+    for (ClapInstance* each : {&plain, &expressed}) each->render(9600);
+    double whole = 0, left = 0, right = 0;
+    for (std::size_t n = 4800; n < 9600; ++n) {
+        whole += std::pow(plain.left[n], 2) + std::pow(plain.right[n], 2);
+        left += std::pow(expressed.left[n], 2);
+        right += std::pow(expressed.right[n], 2);
+    }
+    ASSERT_GT(whole, 0);
+    EXPECT_NEAR(left + right, 0.25 * whole, 1e-3 * whole);
+    EXPECT_LT(right, 1e-6 * whole);
+}
+
 TEST(ClapMpe, MessagesForAZoneDoNoHarmWithoutOne) {
     Fixture one;
     one.events.midi(0, 0x91, 33, 100);

@@ -3,13 +3,10 @@
 
 #include <deque>
 #include <map>
-#include <random>
 #include <utility>
 
-#include "formats/midi_file/midi_file.h"
 #include "support/clap_host.h"
-#include "support/read_wav.h"
-#include "support/run_program.h"
+#include "support/rendered_piece.h"
 
 namespace jawari::host {
 namespace {
@@ -59,20 +56,11 @@ class Sender {
 
 TEST_P(ClapEqualsRender, BitForBit) {
     const Piece piece = GetParam();
-    const test::TemporaryFolder folder;
-    const std::string midi = std::string(JAWARI_SOURCE_DIR) + "/presets/demo/" + piece.midi + ".mid";
-    const std::string wav = folder.file("render.wav");
-    const auto ran = test::run({JAWARI_PROGRAM, "render", midi, "--preset", piece.preset, "--format", "float",
-                                "--set", "palm_mute=0.2", "--set", "volume=0.7", "-o", wav});
-    ASSERT_EQ(ran.exit_code, 0) << ran.err;
-    const test::Wav rendered = test::read_wav(wav);
-    const std::vector<double> left = rendered.channel(0), right = rendered.channel(1);
-    const std::string bytes = test::read_text(midi);
-    const auto file = parse_midi({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-    ASSERT_TRUE(file);
+    const test::RenderedPiece rendered =
+        test::render_piece(piece.midi, piece.preset, {"--set", "palm_mute=0.2", "--set", "volume=0.7"});
     const auto frames = static_cast<std::size_t>(piece.seconds * 48000);
-    ASSERT_GT(left.size(), frames);
     for (const Dialect dialect : {Dialect::Midi, Dialect::Notes, Dialect::NotesWithIds}) {
+        SCOPED_TRACE(static_cast<int>(dialect));
         ClapInstance one;
         const auto& loader = one.get<clap::PluginPresetLoad>(clap::preset_load_id);
         ASSERT_TRUE(loader.from_location(one.plugin, clap::location_plugin, nullptr, piece.preset));
@@ -80,26 +68,9 @@ TEST_P(ClapEqualsRender, BitForBit) {
         one.events.parameter(0, 6, 0.2);
         one.events.parameter(0, 0, 0.7);
         Sender sender(one, dialect);
-        std::mt19937 random(11);
-        std::size_t next = 0, done = 0;
-        while (done < frames) {
-            const auto block =
-                static_cast<std::uint32_t>(std::min<std::size_t>(random() % 1500, frames - done));
-            const auto& events = file.value().events;
-            for (; next < events.size(); ++next) {
-                const auto frame = frame_of(file.value(), events[next].time, 48000);
-                if (frame >= done + block) break;
-                if (events[next].status >= 0x80 && events[next].status < 0xF0)
-                    sender.send(events[next], static_cast<std::uint32_t>(frame - done));
-            }
-            one.process(block);
-            done += block;
-        }
-        for (std::size_t n = 0; n < frames; ++n) {
-            ASSERT_EQ(static_cast<double>(one.left[n]), left[n])
-                << n << " dialect " << static_cast<int>(dialect);
-            ASSERT_EQ(static_cast<double>(one.right[n]), right[n]) << n;
-        }
+        test::play_piece(one, rendered.file, frames,
+                         [&](const MidiEvent& event, std::uint32_t time) { sender.send(event, time); });
+        test::expect_equal(one, rendered, frames);
     }
 }
 

@@ -1,6 +1,7 @@
 // The audio thread of a plugin takes no memory, no lock and makes no system call, whatever the host does.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <mutex>
@@ -11,6 +12,10 @@
 #include "instrument/instrument_cache.h"
 #include "realtime_traps.h"
 #include "support/clap_host.h"
+#ifdef JAWARI_LV2
+#include "support/lv2_host.h"
+#endif
+#include "support/vst3_host.h"
 
 #ifdef JAWARI_TRAPS_SYSTEM_CALLS
 
@@ -21,6 +26,7 @@ using test::ClapInstance;
 using test::small_state;
 
 constexpr std::size_t most_block = 600;
+constexpr int no_filter = 99;  // exit code: this system does not let a thread filter its calls
 
 /// Events and buffers that are there before the traps are set.
 class TrappedHost {
@@ -88,16 +94,19 @@ class TrappedHost {
     std::uint32_t frames_ = 0;
 };
 
-/// In this process, which it ends: the audio thread is under all traps. `misdeed`: done by it at the end.
-[[noreturn]] void perform_trapped(const std::function<void()>& misdeed) {
-    constexpr int no_filter = 99;
-    ClapInstance instance;
-    instance.load(small_state("guitar-steel"));
-    if (!instance.activate(48000, 64)) _exit(98);
-    TrappedHost host(instance);
-    const auto model = compile_preset_text(test::small_preset_text("guitar-steel"), "guitar-steel", {});
-    Adversary adversary(model.value()->model, 2);
-    std::minstd_rand random(9);
+/// What a host does: loads states and prepares blocks on its own thread, and plays them on one that is under
+/// all traps.
+struct Performance {
+    std::function<void(const std::string& state)> load;
+    std::function<void(int block)> prepare;
+    std::function<void(int block)> play;  ///< the audio thread
+    std::function<void(int block)> gather;
+    std::function<bool()> was_heard;
+    std::function<void()> misdeed;  ///< of the audio thread, at the end; may be empty
+};
+
+/// In this process, which it ends.
+[[noreturn]] void perform_trapped(const Performance& performance) {
     constexpr int blocks = 400;
     const std::array<std::string, 3> states{small_state("guitar-steel"), small_state("bass-fretted"),
                                             small_state("sitar")};
@@ -110,8 +119,8 @@ class TrappedHost {
         const test::Trap trap;
         for (int block = 1;; ++block) {
             while (asked.load() < block) __builtin_ia32_pause();
-            host.play(block % 97 == 0);
-            if (block == blocks && misdeed) misdeed();
+            performance.play(block);
+            if (block == blocks && performance.misdeed) performance.misdeed();
             memory = allocations;
             locked = locks;
             called = static_cast<unsigned long>(test::system_calls);
@@ -119,36 +128,62 @@ class TrappedHost {
         }
     });
     for (int block = 1; block <= blocks; ++block) {
-        if (block % 40 == 0) instance.load(states[static_cast<std::size_t>(block / 40) % 3]);
-        if (block % 7 == 0) instance.plugin->on_main_thread(instance.plugin);
-        host.prepare(adversary, random);
+        if (block % 40 == 0) performance.load(states[static_cast<std::size_t>(block / 40) % 3]);
+        performance.prepare(block);
         asked.store(block);
         while (done.load() < block && filtered.load()) std::this_thread::yield();
         if (!filtered.load()) _exit(no_filter);
+        performance.gather(block);
     }
-    int code = (memory > 0 ? 1 : 0) + (locked > 0 ? 2 : 0) + (called > 0 ? 4 : 0);
-    if (!host.loud || host.ends < 100) code += 8;
-    _exit(code);
+    const int code = (memory > 0 ? 1 : 0) + (locked > 0 ? 2 : 0) + (called > 0 ? 4 : 0);
+    _exit(code + (performance.was_heard() ? 0 : 8));
 }
 
-int hits_of(const std::function<void()>& misdeed = {}) {
+/// perform() ends a process of its own; the code with which it does.
+int code_of(const std::function<void()>& perform) {
     const pid_t child = fork();
-    if (child == 0) perform_trapped(misdeed);
+    if (child == 0) perform();
     int status = 0;
     EXPECT_EQ(waitpid(child, &status, 0), child);
     EXPECT_TRUE(WIFEXITED(status)) << "signal " << WTERMSIG(status);
     return WEXITSTATUS(status);
 }
 
+Adversary adversary_of_guitar() {
+    static const auto model =
+        compile_preset_text(test::small_preset_text("guitar-steel"), "guitar-steel", {}).value();
+    return Adversary(model->model, 2);
+}
+
+void perform_clap(const std::function<void()>& misdeed) {
+    ClapInstance instance;
+    instance.load(small_state("guitar-steel"));
+    if (!instance.activate(48000, 64)) _exit(98);
+    TrappedHost host(instance);
+    Adversary adversary = adversary_of_guitar();
+    std::minstd_rand random(9);
+    perform_trapped({[&](const std::string& state) { instance.load(state); },
+                     [&](int block) {
+                         if (block % 7 == 0) instance.plugin->on_main_thread(instance.plugin);
+                         host.prepare(adversary, random);
+                     },
+                     [&](int block) { host.play(block % 97 == 0); }, [](int) {},
+                     [&] { return host.loud && host.ends >= 100; }, misdeed});
+}
+
+int hits_of(const std::function<void()>& misdeed = {}) {
+    return code_of([&] { perform_clap(misdeed); });
+}
+
 TEST(ClapRealtime, NoMemoryNoLocksNoSystemCalls) {
     const int code = hits_of();
-    if (code == 99) GTEST_SKIP() << "this system does not let a thread filter its calls";
+    if (code == no_filter) GTEST_SKIP() << "this system does not let a thread filter its calls";
     EXPECT_EQ(code, 0) << "1: memory, 2: locks, 4: system calls, 8: nothing played";
 }
 
 TEST(ClapRealtime, EveryTrapFires) {
     const int code = hits_of([] { std::free(test::used(std::malloc(100))); });
-    if (code == 99) GTEST_SKIP() << "this system does not let a thread filter its calls";
+    if (code == no_filter) GTEST_SKIP() << "this system does not let a thread filter its calls";
     EXPECT_EQ(code, 1);
     std::mutex mutex;
     EXPECT_EQ(hits_of([&] { const std::lock_guard lock(mutex); }), 2);
@@ -161,6 +196,52 @@ TEST(ClapRealtime, TheTrapsReachIntoThePlugin) {
     const test::Trap trap;
     const std::string text = instance.save();
     EXPECT_GT(allocations, 10U);
+}
+
+// ------------------------------------------------------------------------------------------ other formats
+
+template <class Instance>
+class FormatRealtime : public testing::Test {};
+#ifdef JAWARI_LV2
+using TrappedFormats = testing::Types<test::Vst3Instance, test::Lv2Instance>;
+#else
+using TrappedFormats = testing::Types<test::Vst3Instance>;
+#endif
+TYPED_TEST_SUITE(FormatRealtime, TrappedFormats, test::FormatNames);
+
+template <class Instance>
+void perform_format() {
+    Instance one;
+    one.strings_wanted = 16;
+    one.load(small_state("guitar-steel"));
+    if (!one.activate(48000, 64)) _exit(98);
+    Adversary adversary = adversary_of_guitar();
+    std::minstd_rand random(9);
+    const auto prepare = [&](int /*block*/) {
+        const auto frames = static_cast<std::uint32_t>(random() % most_block);
+        if (frames > 0)
+            for (const AdversaryMessage& message : adversary.next(frames))
+                one.events.midi(static_cast<std::uint32_t>(message.offset), message.message.status,
+                                message.message.data1, message.message.data2);
+        one.events.parameter(0, static_cast<std::uint32_t>(random() % 20), 0.5);
+        one.prepare(frames);
+    };
+    const auto was_heard = [&] {
+        return std::any_of(one.left.begin(), one.left.end(),
+                           [](float sample) { return std::abs(sample) > 1e-3F; });
+    };
+    perform_trapped({[&](const std::string& state) { one.load(state); },
+                     prepare,
+                     [&](int) { one.call(); },
+                     [&](int) { one.gather(); },
+                     was_heard,
+                     {}});
+}
+
+TYPED_TEST(FormatRealtime, NoMemoryNoLocksNoSystemCalls) {
+    const int code = code_of([] { perform_format<TypeParam>(); });
+    if (code == no_filter) GTEST_SKIP() << "this system does not let a thread filter its calls";
+    EXPECT_EQ(code, 0) << "1: memory, 2: locks, 4: system calls, 8: nothing played";
 }
 
 }  // namespace

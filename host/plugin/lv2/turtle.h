@@ -1,0 +1,15 @@
+// What an LV2 host reads of the plugin before it loads it: texts in Turtle (https://www.w3.org/TR/turtle/).
+#pragma once
+
+#include <string>
+
+namespace jawari::host::lv2 {
+
+/// Which plugin and presets the bundle has. Threads: any, as below.
+std::string manifest_turtle();
+/// The plugin and its ports.
+std::string plugin_turtle();
+/// The factory presets: a state each, and all parameters neutral.
+std::string presets_turtle();
+
+}  // namespace jawari::host::lv2
