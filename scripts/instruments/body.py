@@ -3,7 +3,9 @@
 The engine drives each mode, an oscillator of 1 kg, with the force on the bridge and hears its velocity. A mode's gain is
 therefore its radiation over its modal mass; the tables give it relative to the first resonance.
 """
+import json
 import math
+import pathlib
 
 from wire import rounded
 
@@ -20,6 +22,14 @@ def mode(frequency_hz, q, left, right):
             "gain_left": rounded(left, 3), "gain_right": rounded(right, 3)}
 
 
+def heard(index, gain):
+    """Gains left and right of a mode: two ears (or microphones) hear each mode by its shape and place, from an angle of its own between
+    -20 and 110 degrees. No mode is lost in mono, and the sides are nearly independent: their correlation is the mean of the sine of twice the
+    angle, 0.34."""
+    angle = math.radians(-20 + 130 * scattered(2 * index + 7))
+    return math.sqrt(2) * gain * math.cos(angle), math.sqrt(2) * gain * math.sin(angle)
+
+
 HIGHEST_HZ = 12000
 
 
@@ -27,8 +37,7 @@ def plate_modes(low_hz, spacing_hz, widen_hz, loss_factor, gain, knee_hz):
     """Modes of constant density up to widen_hz, then of a spacing that grows with frequency: there they overlap anyway.
 
     Gains make the mean response flat from low_hz to knee_hz (radiation gains what mobility loses) and let it fall by
-    6 dB per octave above, where the bridge's mass takes over. Left and right hear each mode with weights and signs of
-    their own, so that the body sounds wide but sums to mono without holes on average.
+    6 dB per octave above, where the bridge's mass takes over.
     """
     modes, place, i = [], low_hz, 0
     while place < HIGHEST_HZ:
@@ -37,15 +46,52 @@ def plate_modes(low_hz, spacing_hz, widen_hz, loss_factor, gain, knee_hz):
         flat = math.sqrt(f / low_hz) * math.sqrt(max(1.0, f / widen_hz))
         g = gain * flat * min(1.0, knee_hz / f)
         sign = 1 if scattered(3 * i + 1) < 0.5 else -1
-        lean = 0.5 * (scattered(2 * i + 7) - 0.5)
-        modes.append(mode(f, 1 / loss_factor, sign * g * (0.75 + lean), sign * g * (0.75 - lean)))
+        modes.append(mode(f, 1 / loss_factor, *heard(i, sign * g)))
         place, i = place + step, i + 1
     return modes
 
 
 def body(named, plate):
-    """named: (Hz, Q, gain) rows heard in the middle; plate: arguments of plate_modes."""
-    return [mode(f, q, g, g) for f, q, g in named] + plate_modes(*plate)
+    """named: (Hz, Q, gain) rows; plate: arguments of plate_modes."""
+    return [mode(f, q, *heard(-1 - i, g)) for i, (f, q, g) in enumerate(named)] + plate_modes(*plate)
+
+
+# Radiation by frequency, fitted to recorded sets by scripts/voice.py --fit: a factor in dB at each third octave from 100 Hz to 8 kHz.
+FITTED = pathlib.Path(__file__).with_name("fitted.json")
+fits = json.loads(FITTED.read_text()) if FITTED.exists() else {}
+
+
+def radiation_db(name, frequency_hz):
+    """Between the third octaves on a straight line over log frequency, beyond them constant."""
+    levels = fits[name].get("third_octaves_db", [0.0, 0.0])
+    place = min(max(3 * math.log2(frequency_hz / 100), 0.0), len(levels) - 1.0)
+    low = min(int(place), len(levels) - 2)
+    return levels[low] + (place - low) * (levels[low + 1] - levels[low])
+
+
+def fitted(name, modes):
+    """The modes with the radiation that was fitted for an instrument, if one was."""
+    if name not in fits:
+        return modes
+    turned = 10 ** (fits[name].get("left_over_right_db", 0.0) / 40)
+    factors = [10 ** (radiation_db(name, row["frequency_hz"]) / 20) for row in modes]
+    return [{**row, "gain_left": rounded(row["gain_left"] * factor / turned, 3), "gain_right": rounded(row["gain_right"] * factor * turned, 3)}
+            for row, factor in zip(modes, factors)]
+
+
+def source(name, text):
+    """Where the body comes from."""
+    if "third_octaves_db" not in fits.get(name, {}):
+        return text
+    fit = fits[name]
+    return (f"{text}; radiation by frequency fitted to {fit['to']}, distance {fit['distance_db']:g} dB per third octave after {fit['before_db']:g} "
+            "(scripts/voice.py --fit)")
+
+
+def levelled(name, rows):
+    """The strings with the levels that make an instrument even, if they were fitted: a factor of each string's signals."""
+    levels = fits.get(name, {}).get("string_levels_db", {})
+    return [{**row, "level": rounded(10 ** (levels[row["name"]] / 20), 3)} if row["name"] in levels else row for row in rows]
 
 
 # Classical guitar: first resonances in the order measured on many instruments (air near 100 Hz, first top plate near

@@ -2,7 +2,7 @@
 import body
 import frets
 import strings
-from parts import finger, from_bridge, hand, panned, quality, sourced, velocity_pickup, with_sources
+from parts import SOFTER, SOFTER_PLECTRUM, finger, from_bridge, hand, panned, quality, sourced, velocity_pickup, with_sources
 from wire import DADDARIO_SOURCE
 
 TUNING = "published: standard tuning, A4 at 440 Hz"
@@ -13,7 +13,7 @@ WOODHOUSE = "published (Woodhouse, Acta Acustica united with Acustica 90 (2004) 
 
 
 def plectrum(from_bridge_m, height_m, release_s):
-    return finger("plectrum", from_bridge(from_bridge_m), 0.002, 0.004, release_s, height_m, 1.4, 0.5)
+    return finger("plectrum", from_bridge(from_bridge_m), 0.002, 0.004, release_s, height_m, 1.4, 0.5, **SOFTER_PLECTRUM)
 
 
 def player(release_t60_s=0.12, **more):
@@ -41,7 +41,7 @@ def steel():
                     "Articulation 1 is the plectrum, 2 the finger."],
         **quality(192000, 20000), "studio": quality(2000000, 80000), "provenance": BODY,
         "frets": fret_board(length, 20, 0.00055, 0.0022, 0.00015),
-        "exciters": [plectrum(0.13, 0.0025, 0.0003), finger("finger", from_bridge(0.15), 0.008, 0.006, 0.0009, 0.0025, 1.4, 0.8)],
+        "exciters": [plectrum(0.13, 0.0025, 0.0001), finger("finger", from_bridge(0.15), 0.008, 0.006, 0.0004, 0.0025, 1.4, 0.8, **SOFTER)],
         "hand": player(), "body": body.STEEL_GUITAR,
         "strings": panned(daddario_sources(rows, [row[2] for row in strings.STEEL_SET], "chosen: 25.4 in, usual for dreadnoughts",
                                            "chosen: string and body together, not measured"), 0.25),
@@ -60,8 +60,8 @@ def nylon():
                     "Articulation 1 is the fingertip, 2 the nail near the bridge."],
         **quality(300000, 16000), "studio": quality(1000000, 40000), "provenance": BODY,
         "frets": fret_board(length, 19, 0.0009, 0.0038, 0.0001),
-        "exciters": [finger("fingertip", from_bridge(0.11), 0.006, 0.006, 0.0007, 0.0022, 1.3, 0.5),
-                     finger("nail", from_bridge(0.07), 0.003, 0.005, 0.0003, 0.002, 1.3, 0.5)],
+        "exciters": [finger("fingertip", from_bridge(0.11), 0.006, 0.006, 0.0002, 0.0022, 1.3, 0.5, **SOFTER),
+                     finger("nail", from_bridge(0.07), 0.003, 0.005, 0.00015, 0.002, 1.3, 0.5, **SOFTER)],
         "hand": player(), "body": body.CLASSICAL_GUITAR, "strings": panned(rows, 0.25),
     }
 
@@ -104,7 +104,7 @@ def twelve():
         "comment": "The steel-string guitar with six courses: octaves on E, A, D, G, unisons on B and e. The plectrum crosses a course in 4 ms.",
         **quality(400000, 30000), "studio": quality(1000000, 60000), "provenance": BODY,
         "frets": fret_board(length, 20, 0.0006, 0.0024, 0.00015),
-        "exciters": [plectrum(0.13, 0.0022, 0.0003)],
+        "exciters": [plectrum(0.13, 0.0022, 0.0001)],
         "hand": player(course_delay_s=0.004), "body": body.STEEL_GUITAR,
         "strings": daddario_sources(rows, gauges, "chosen: 25.4 in", "chosen: string and body together, not measured", tunings),
     }

@@ -35,7 +35,7 @@ GROUPS = [(29, 32), (33, 36), (37, 40), (41, 44), (45, 48), (49, 52), (53, 56), 
 
 def quill(low, high):
     from_nut = interpolated((low + high) / 2, HARPSICHORD_PLUCK)
-    return finger(f"quill {name_of(low)} to {name_of(high)}", share(rounded(1 - from_nut, 3)), 0.002, 0.006, 0.0002, 0.0012, 0.3, 0.1,
+    return finger(f"quill {name_of(low)} to {name_of(high)}", share(rounded(1 - from_nut, 3)), 0.002, 0.006, 0.00008, 0.0012, 0.3, 0.1,
                   string_range=[low - 29, high - 29], given={"position_share": "chosen: a front 8-foot register's usual share"})
 
 
@@ -127,7 +127,7 @@ def dulcimer():
                        "solid wire",
             "body": "chosen (scripts/instruments/body.py)"},
         "frets": {"count": 0},
-        "exciters": [hammer("wooden hammer", share(0.15), 0.003, 0.002, 3e7, 1.5, 0.05, 3.0, 1.2, given={"exponent": "chosen: Hertz's contact"}),
+        "exciters": [hammer("wooden hammer", share(0.15), 0.003, 0.002, 2e8, 1.5, 0.05, 3.0, 1.2, given={"exponent": "chosen: Hertz's contact"}),
                      hammer("leather hammer", share(0.15), 0.005, 0.0025, 1e9, 2.3, 0.2, 3.0, 1.2)],
         "hand": player(0.3, damps=False), "body": body.DULCIMER, "strings": rows,
     }

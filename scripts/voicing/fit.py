@@ -1,0 +1,127 @@
+"""Fits a preset to its recorded sets: how its body radiates by frequency, and the level of each string.
+
+Both are data of the preset: factors of the body's modes in third octaves, and the strings' `level`. Sets that are held out are not
+looked at. What comes out is written to scripts/instruments/fitted.json, from which scripts/make_presets.py makes the preset.
+"""
+import json
+import pathlib
+import statistics
+import sys
+import tempfile
+
+import compare
+import properties
+import sets
+import sounds
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "scripts" / "instruments")]
+import body  # noqa: E402
+import make_presets  # noqa: E402
+
+ROUNDS = 6
+STEP = 0.7            # share of what is missing that a round adds: bands overlap
+WIDEST_DB = 60.0      # no third octave is lowered by more against the strongest
+# Instruments without a set of their own take the radiation of a kindred one.
+KINDRED = {"guitar-12": "guitar-steel"}
+EVEN = ["harpsichord", "clavichord", "dulcimer", "guitar-nylon", "guitar-steel"]
+NAMES = {"fluid": "Fluid R3 (fluid-soundfont-gm)"}
+
+
+def smooth(values):
+    padded = [values[0], *values, values[-1]]
+    return [(a + 2 * b + c) / 4 for a, b, c in zip(padded, padded[1:], padded[2:])]
+
+
+def bounded(levels):
+    top = max(levels)
+    return [round(max(x - top, -WIDEST_DB), 1) for x in levels]
+
+
+def missing_db(mine, targets):
+    """Median over keys and sets of what each third octave lacks."""
+    rows = [[b - a for a, b in zip(levels, near)] for key, levels in mine.items() for spectra in targets.values()
+            if (near := sets.spectrum_near(spectra, key)) is not None]
+    return [statistics.median(column) for column in zip(*rows)]
+
+
+class Trial:
+    """The preset as make_presets would write it with the fits of the moment."""
+
+    def __init__(self, cache, program, name, folder):
+        self.cache, self.program, self.name, self.path = cache, program, name, pathlib.Path(folder) / f"{name}.json"
+
+    def written(self):
+        self.path.write_text(make_presets.preset(self.name))
+        return sounds.Preset(self.cache, self.program, self.path), json.loads(self.path.read_text())
+
+    def spectra(self, keys):
+        preset, _ = self.written()
+        return compare.spectra_of({key: preset.key(key) for key in keys})
+
+
+def distance_to(mine, targets):
+    return statistics.fmean(compare.distance(mine, spectra)[0] for spectra in targets.values())
+
+
+def fit_radiation(trial, keys, targets, found):
+    found["before_db"] = round(distance_to(trial.spectra(keys), targets), 1)
+    found.update(to=" and ".join(NAMES[label] for label in targets), distance_db=0.0, third_octaves_db=[0.0] * len(properties.CENTRES_HZ))
+    best = None
+    for _ in range(ROUNDS):
+        mine, levels = trial.spectra(keys), found["third_octaves_db"]
+        now = distance_to(mine, targets)
+        if best is None or now < best[0]:
+            best = now, levels
+        found["third_octaves_db"] = bounded([a + STEP * b for a, b in zip(levels, smooth(missing_db(mine, targets)))])
+    middle = statistics.median(best[1])  # the instrument's gain is not part of the fit
+    found["distance_db"], found["third_octaves_db"] = round(best[0], 1), [round(level - middle, 1) for level in best[1]]
+
+
+def keys_of_string(string, description, keys):
+    """Those that it plays when nothing else sounds: no other string has them at a lower fret."""
+    openings = {s["open_note"] for s in description["strings"] if s is not string and s.get("course") is None} | {string["open_note"]}
+    return [key for key in keys if max(o for o in openings if o <= key) == string["open_note"]] if string.get("course") is None else [string["open_note"]]
+
+
+def fit_levels(trial, found):
+    """Strings equally loud, A-weighted, by the median of their keys."""
+    levels = found["string_levels_db"] = {}
+    for _ in range(2):
+        preset, description = trial.written()
+        loud = preset.compass(sets.playable_keys(description))
+        middle = statistics.median(loud.values())
+        for string in description["strings"]:
+            lacks = statistics.median(middle - loud[str(key)] for key in keys_of_string(string, description, [int(key) for key in loud]))
+            levels[string["name"]] = round(levels.get(string["name"], 0.0) + lacks, 1)
+
+
+def fit_balance(trial, found):
+    """Both sides equally loud: few modes carry most of a note, and where they stand is chance."""
+    found["left_over_right_db"] = 0.0
+    preset, description = trial.written()
+    found["left_over_right_db"] = preset.phrase(sets.playable_keys(description))["left_over_right_db"]
+
+
+def fit(cache, program, name):
+    """Fits, writes, and returns a line that says how far it went."""
+    if name in KINDRED:
+        other = body.fits[KINDRED[name]]
+        body.fits[name] = {key: value for key, value in other.items() if key != "string_levels_db"}
+        body.fits[name]["to"] += f" as {KINDRED[name]}"
+    else:
+        found = body.fits[name] = {}
+        with tempfile.TemporaryDirectory() as folder:
+            trial = Trial(cache, program, name, folder)
+            keys = sets.keys_of(name, trial.written()[1])
+            recorded, _ = sets.recorded(cache, name)
+            targets = {r.name: compare.spectra_of({key: r.key(key) for key in keys}) for r in recorded if r.name in sets.FITTED}
+            if targets:
+                fit_radiation(trial, keys, targets, found)
+            if name in EVEN:
+                fit_levels(trial, found)
+            fit_balance(trial, found)
+    lines = [f"{json.dumps(key)}: {json.dumps(body.fits[key])}" for key in sorted(body.fits)]
+    body.FITTED.write_text("{\n" + ",\n".join(lines) + "\n}\n")
+    found = body.fits[name]
+    return f"{name}: {found['before_db']:g} dB to {found['distance_db']:g} dB" if "to" in found else f"{name}: levels of {len(found['string_levels_db'])} strings"
