@@ -14,6 +14,9 @@ else()
   # GCC 12 takes `"text" + std::string` for an overlapping copy (GCC bug 105651).
   target_compile_options(jawari_options INTERFACE
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+  # std::stable_sort of libstdc++ 12 calls a function that is deprecated; clang 19 says so where it is used.
+  target_compile_options(jawari_options INTERFACE
+    $<$<AND:$<CXX_COMPILER_ID:Clang>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,17>>:-Wno-deprecated-declarations>)
 endif()
 if(JAWARI_WARNINGS_AS_ERRORS)
   target_compile_options(jawari_options INTERFACE $<IF:$<CXX_COMPILER_ID:MSVC>,/WX,-Werror>)
@@ -29,7 +32,12 @@ if(JAWARI_SANITIZE)
     add_compile_definitions("HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3_DL)")
   endif()
 endif()
-if(CMAKE_UNITY_BUILD AND NOT MSVC)
-  # Of names in another file of the unit, or that GCC would not take for a header's; other builds look.
-  target_compile_options(jawari_options INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+# Several files in one unit: of names in another file, or that GCC would not take for a header's; other builds look.
+add_library(jawari_joined_options INTERFACE)
+if(NOT MSVC)
+  target_compile_options(jawari_joined_options INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
+if(CMAKE_UNITY_BUILD)
+  target_link_libraries(jawari_options INTERFACE jawari_joined_options)
+endif()
+

@@ -1,17 +1,21 @@
-# Writes a C++ source with the text of every presets/KIND/**/NAME.json, as read by base/builtin.h.
+# Writes a C++ source with the text of every presets/KIND/**/NAME.json, as read by base/builtin.h; presets/NAME.schema.json has the kind
+# "schemas".
 function(jawari_embed_presets OUTPUT)
   set(root ${PROJECT_SOURCE_DIR}/presets)
   file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${root} ${root}/*.json)
-  list(FILTER files EXCLUDE REGEX "\\.schema\\.json$")  # for editors
   list(SORT files)
   set(table "")
   foreach(file IN LISTS files)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${root}/${file})
-    if(NOT file MATCHES "^([^/]+)/(.+)\\.json$")
+    if(file MATCHES "^([^/]+)\\.schema\\.json$")
+      set(kind "schemas")
+      set(name "${CMAKE_MATCH_1}")
+    elseif(file MATCHES "^([^/]+)/(.+)\\.json$")
+      set(kind "${CMAKE_MATCH_1}")
+      set(name "${CMAKE_MATCH_2}")
+    else()
       message(FATAL_ERROR "presets/${file}: expected presets/KIND/NAME.json")
     endif()
-    set(kind "${CMAKE_MATCH_1}")
-    set(name "${CMAKE_MATCH_2}")
     file(READ ${root}/${file} text)
     string(APPEND table "    {\"${kind}\", \"${name}\", R\"preset(${text})preset\"},\n")
   endforeach()

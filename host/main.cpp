@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "cli/command.h"
 #include "commands/bench_latency/latency_command.h"
+#include "commands/campaign/campaign_command.h"
 #include "commands/info/info_command.h"
 #ifdef JAWARI_LIVE
 #include "commands/play/play_command.h"
@@ -78,6 +79,7 @@ MaybeError run(int argc, char** argv, int& help_exit_code) {
     add_presets_command(app, command);
     add_info_command(app, command);
     add_bench_latency_command(app, command);
+    add_campaign_command(app, command);
 #ifdef JAWARI_LIVE
     add_play_command(app, command);
     add_devices_command(app, command);

@@ -10,8 +10,8 @@ scripts/setup.sh
 cmake --build --preset release --parallel "$(nproc)" --target jawari
 plugin=
 if grep -q '^JAWARI_BUILD_PLUGINS:BOOL=ON' build/release/CMakeCache.txt; then
-    cmake --build --preset release --parallel "$(nproc)" --target jawari_clap
-    plugin=build/release/plugins/jawari.clap
+    cmake --build --preset release --parallel "$(nproc)" --target jawari_plugins
+    plugin=build/release/plugins
 fi
 
 jawari=build/release/bin/jawari
@@ -26,5 +26,5 @@ echo
 echo "Listen to: $PWD/out/demo.wav   presets/demo/slap.mid on the preset bass-fretted"
 echo "Its sound: $PWD/out/demo.png   waveform and spectrogram"
 echo "More:      $PWD/out/*.wav      a piece for each kind of instrument (docs/presets.md)"
-[[ -z $plugin ]] || echo "In a DAW:  $PWD/$plugin   a CLAP plugin; cmake --install build/release --component plugin-user"
+[[ -z $plugin ]] || echo "In a DAW:  $PWD/$plugin   the plugin as CLAP, VST 3 and LV2; cmake --install build/release --component plugin-user"
 echo "A string:  $PWD/out/bass.png   the scene lab/bass: string over its frets, probe, when which fret is struck"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks formatting (.clang-format) of all C++ sources, then runs clang-tidy (.clang-tidy) over engine and host.
+# Checks formatting (.clang-format) of all C++ sources, then runs clang-tidy (.clang-tidy) over engine, host and python.
 # Usage: scripts/lint.sh [--fix-format|--analyze]
 #   --fix-format: reformat in place instead of checking
 #   --analyze: each file by itself, and with the path-sensitive analyzer as well (clang-analyzer-*): four times as long
@@ -18,7 +18,7 @@ case "${1:-}" in
     *) echo "lint.sh: unknown argument '$1' (allowed: --fix-format, --analyze)" >&2; exit 2 ;;
 esac
 
-mapfile -t sources < <(find benchmarks docs engine host tests -name '*.cpp' -o -name '*.h' | sort)
+mapfile -t sources < <(find benchmarks docs engine host python tests -name '*.cpp' -o -name '*.h' | sort)
 if $fix; then
     clang-format -i "${sources[@]}"
     exit 0
@@ -30,7 +30,7 @@ printf '%s\0' "${sources[@]}" | xargs -0 -n 50 -P "$(nproc)" clang-format --dry-
 
 # configure FOLDER UNITY: compile commands for build/FOLDER.
 configure() {
-    cmake --preset lint -B "build/$1" -DCMAKE_UNITY_BUILD="$2" > /dev/null
+    cmake --preset lint -B "build/$1" -DCMAKE_UNITY_BUILD="$2" -DJAWARI_JOIN_FILES="$2" > /dev/null
 }
 
 # Kernels are read for one instruction set: the other copies are the same source.
@@ -38,9 +38,9 @@ tidy() {
     clang-tidy -quiet -p "build/$1" "${checks[@]}" -extra-arg=-DHWY_COMPILE_ONLY_STATIC "$2" 2> /dev/null
 }
 
-# units_of FOLDER: what is compiled for engine and host, the units that take longest (those of several files) first.
+# units_of FOLDER: what is compiled for engine, host and python, the units that take longest (those of several files) first.
 units_of() {
-    sed -n 's/^  "file": "\(.*\)".*/\1/p' "build/$1/compile_commands.json" | grep -E "^$PWD/((build/$1/)?(engine|host)/)" |
+    sed -n 's/^  "file": "\(.*\)".*/\1/p' "build/$1/compile_commands.json" | grep -E "^$PWD/((build/$1/)?(engine|host|python)/)" |
         grep -v builtin_table | sort -u | awk '{ print (/_cxx\.cxx$/ ? 0 : 1), $0 }' | sort | cut -d ' ' -f 2-
 }
 
@@ -65,7 +65,7 @@ if [[ $unity == ON ]]; then
     configure lint ON
     mapfile -t units < <(units_of lint)
 else
-    mapfile -t units < <(find engine host -name '*.cpp' | sort)
+    mapfile -t units < <(find engine host python -name '*.cpp' | sort)
 fi
 export -f tidy lint_unit
 export checks_text="${checks[*]}"

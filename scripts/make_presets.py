@@ -14,20 +14,22 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "scripts" / "instruments"))
 
 import basses  # noqa: E402
+import body  # noqa: E402
 import eastern  # noqa: E402
 import guitars  # noqa: E402
 import keyboards  # noqa: E402
 import layout  # noqa: E402
-from levels import AIM_DB  # noqa: E402
+from levels import PHRASE_LUFS  # noqa: E402
 
 SCHEMA = "jawari.preset/2"
 INSTRUMENTS = {**basses.INSTRUMENTS, **guitars.INSTRUMENTS, **eastern.INSTRUMENTS, **keyboards.INSTRUMENTS}
-# Chosen so that a chord at velocity 127 peaks near AIM_DB: tests/presets/check_levels.py --suggest.
+# Chosen so that the same phrase is equally loud on all: scripts/voice.py PROGRAM --gains prints them. Guitars
+# are below that, as far as the loudest chord demands: nylon by 3 dB, steel by 1.5 dB.
 GAIN = {
-    "bass-fretted": 0.12, "bass-fretless": 0.094, "bass-slap": 0.053, "guitar-steel": 16, "guitar-nylon": 28, "guitar-electric": 0.044,
-    "guitar-12": 22, "sitar": 23, "tanpura": 130, "biwa": 65, "harpsichord": 100, "clavichord": 120, "dulcimer": 3.1, "prepared": 2.3,
+    "bass-fretted": 0.0791, "bass-fretless": 0.0636, "bass-slap": 0.0293, "guitar-steel": 52, "guitar-nylon": 178, "guitar-electric": 0.0493, "guitar-12": 52.2,
+    "sitar": 88, "tanpura": 100, "biwa": 43.3, "harpsichord": 50.3, "clavichord": 200, "dulcimer": 6.16, "prepared": 2.12,
 }
-GAIN_SOURCE = f"chosen: a chord at velocity 127 peaks near {AIM_DB:g} dBFS (tests/presets/check_levels.py)"
+GAIN_SOURCE = f"chosen: the same phrase has {PHRASE_LUFS:g} LUFS on every preset (scripts/voice.py --gains)"
 QUALITY_SOURCE = "chosen: a compromise of cost and of what ultrasonic modes add (scripts/preset_convergence.py)"
 ORDER = ["comment", "provenance", "gain", "contact_rate_min_hz", "mode_limit_hz", "studio", "law", "play", "frets", "obstacles", "soft_touches", "exciters", "hand",
          "pickups", "body", "strings"]
@@ -35,6 +37,10 @@ ORDER = ["comment", "provenance", "gain", "contact_rate_min_hz", "mode_limit_hz"
 
 def preset(name):
     content = INSTRUMENTS[name]()
+    if "body" in content:
+        content["body"] = body.fitted(name, content["body"])
+        content["provenance"] = {**content.get("provenance", {}), "body": body.source(name, content.get("provenance", {})["body"])}
+        content["strings"] = body.levelled(name, content["strings"])
     content["gain"] = GAIN[name]
     content["provenance"] = {"gain": GAIN_SOURCE, "contact_rate_min_hz": QUALITY_SOURCE, "mode_limit_hz": QUALITY_SOURCE,
                              **content.get("provenance", {})}

@@ -84,6 +84,17 @@ def block(name):
     return f"{text}\n\n{strings_table(preset)}\n\n{provenance_table(preset)}\n"
 
 
+def ranges(keys):
+    """36, 43 to 45: the keys that some string has, without those between that none has."""
+    runs = []
+    for key in sorted(keys):
+        if runs and key == runs[-1][1] + 1:
+            runs[-1][1] = key
+        else:
+            runs.append([key, key])
+    return ", ".join(f"{low}" if low == high else f"{low} to {high}" for low, high in runs)
+
+
 def overview():
     rows = ["| preset | name | strings | notes | exciters | obstacles |", "|---|---|---|---|---|---|"]
     for path in sorted((ROOT / "presets" / "instruments").glob("*.json")):
@@ -91,11 +102,11 @@ def overview():
         frets = [s.get("frets", preset.get("frets", {})) for s in preset["strings"]]
         keys = {}  # the first string of a course gives its key
         for i, (string, stops) in enumerate(zip(preset["strings"], frets)):
-            keys.setdefault(string.get("course", f"alone {i}"), (string["open_note"], string["open_note"] + stops.get("count", 0)))
-        lowest, highest = min(low for low, _ in keys.values()), max(high for _, high in keys.values())
+            count = stops.get("count", len(stops.get("height_m", [])))
+            keys.setdefault(string.get("course", f"alone {i}"), {string["open_note"] + n for n in [0, *stops.get("semitones", range(1, count + 1))]})
         exciters = sorted({e["kind"] for e in preset["exciters"]})
         bodies = (["frets"] if any("height_m" in f for f in frets) else []) + sorted({o["name"].split(" ")[0] for o in preset.get("obstacles", [])})
-        rows.append(f"| `{path.stem}` | {preset['name']} | {len(preset['strings'])} | {lowest} to {highest} | "
+        rows.append(f"| `{path.stem}` | {preset['name']} | {len(preset['strings'])} | {ranges(set().union(*keys.values()))} | "
                     f"{', '.join(exciters)} | {', '.join(bodies)} |")
     return "\n".join(rows) + "\n"
 

@@ -16,14 +16,19 @@ import gzip
 import json
 import os
 import pathlib
+import re
 import struct
 import subprocess
 import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PACKAGES = ("freedoom", "mma", "openttd-openmsx", "pianobooster", "planetblupi-music-midi", "playmidi", "simutrans-data", "solfege",
-            "timidity")
+PACKAGES = ("ardour-data", "chuck-data", "crimson", "csound-doc", "csoundqt-examples", "faust-common", "freedink-data", "freedm", "freedoom",
+            "freewheeling", "fretsonfire-songs-muldjord", "fretsonfire-songs-sectoid", "kobodeluxe-data", "liquidwar-data", "mma",
+            "nyquist", "octave-audio", "openttd-openmsx", "pangzero", "pd-cyclone", "pd-mrpeach", "pianobooster",
+            "pinball-table-hurd-data", "planetblupi-music-midi", "playmidi", "python3-pyo", "sfront", "simutrans-data", "solfege",
+            "songwrite", "texlive-lang-english", "texlive-lang-italian", "texlive-music", "timidity", "wims-help", "yoshimi-data",
+            "yoshimi-doc")
 ENDINGS = (".mid", ".midi", ".kar", ".rmi")
 LONGEST_TAIL_S = 59.9
 
@@ -31,6 +36,10 @@ LONGEST_TAIL_S = 59.9
 def is_midi(path):
     name = path.name.lower()
     return path.is_file() and (name.endswith(ENDINGS) or name.endswith(tuple(e + ".gz" for e in ENDINGS)))
+
+
+def is_music(path):
+    return is_midi(path) or (path.is_file() and path.suffix.lower() == ".wad")
 
 
 def lumps(wad):
@@ -76,6 +85,10 @@ def downloaded(package, folder):
     subprocess.run(["apt-get", "-qq", "download", package], cwd=target, check=True)
     for archive in target.glob("*.deb"):
         subprocess.run(["dpkg", "-x", archive, target], check=True)
+        archive.unlink()
+    for path in target.rglob("*"):
+        if path.is_file() and not path.is_symlink() and not is_music(path):
+            path.unlink()
     return list(target.rglob("*"))
 
 
@@ -85,7 +98,7 @@ def candidates(options, folder):
     else:
         paths = [path for package in PACKAGES
                  for path in (downloaded(package, folder) if options.download else installed(package))]
-    return [path for path in paths if is_midi(path) or (path.is_file() and path.suffix.lower() == ".wad")]
+    return [path for path in paths if is_music(path)]
 
 
 def render(program, midi, folder, longest_s, extra):
@@ -127,9 +140,11 @@ class Notices:
 
     def take(self, stats):
         self.add("0 notes without an instrument: drums, sound effects", stats["silent_notes"])
-        self.add("0 notes outside their instrument's range", stats["ignored_notes"])
+        self.add("0 notes that no string has", stats["ignored_notes"])
+        self.add("0 notes beyond the keys of their preset, played by another", sum(lent["notes"] for lent in stats["lent_notes"]))
         for repair in stats["repairs"]:
-            self.add(f"1 repair: {repair['what']}; {repair['assumed']}", repair["count"])
+            what = re.sub(r"0x[0-9A-F]+ ?|[0-9]+ s ", "", repair["what"])
+            self.add(f"1 repair: {what}; {repair['assumed']}", repair["count"])
         for kind in stats["ignored"]:
             self.add(f"2 {kind['what']}", kind["messages"])
 

@@ -1,12 +1,15 @@
 #!/usr/bin/env bash
 # Installs the packages that a use of this tree needs: the one list of every dependency. For Debian 12, Debian 13 and the
 # Ubuntus made from them; which names a system has is asked of apt, not of its release.
-# Usage: scripts/setup.sh [--test] [--full] [--bench] [--coverage] [--realtime] [--compilers]
+# Usage: scripts/setup.sh [--python] [--test] [--full] [--bench] [--voice] [--coverage] [--hosts] [--realtime] [--compilers]
 #   (none): what building and running the program needs
+#   --python: also what the Python package needs
 #   --test: also what scripts/test.sh needs
 #   --full: also what scripts/test.sh --full needs (lint, fuzzing, instruction counts)
 #   --bench: also what scripts/bench.sh needs (plots, instruction counts, other people's instruments)
+#   --voice: also what scripts/voice.py needs (recorded instruments, what plays them)
 #   --coverage: also what scripts/coverage.sh needs
+#   --hosts: also the hosts in which the plugin is tried (tests/hosts)
 #   --realtime: also what scripts/realtime_sanitizer.sh needs (a compiler of 2025, from Debian's security archive)
 #   --compilers: also every compiler that scripts/check_compilers.sh tries
 # Asks nothing; does nothing when all is there. A package that only an oracle or an extra needs is optional: where the system
@@ -36,7 +39,17 @@ program      libjack-jackd2-dev      the JACK that the two are used with here (t
 program      libedit-dev             play: shell
 program      liblo-dev               play: Open Sound Control
 program      python3                 names of the demo pieces
-program?     dpf-source              headers of CLAP: the plugin is not built
+program?     dpf-source              headers of CLAP and VST 3: the plugin is not built
+program?     lv2-dev                 headers of LV2: the plugin is not built as LV2
+python       pybind11-dev            the Python package
+python       python3-dev             Python's headers: the Python package
+python       python3-numpy           the Python package
+python       python3-pip             pip install ./python
+python       python3-venv            environments of its own
+python       python3-setuptools      pip install --no-build-isolation
+python?      python3-xarray          labelled results: to_xarray() does not work
+python?      python3-h5py            campaigns: no results.h5
+python?      python3-distributed     campaigns: --dask does not work
 test         git                     which files are tracked
 test         libgtest-dev            GoogleTest
 test         libbenchmark-dev        Google Benchmark
@@ -44,7 +57,20 @@ test         python3-numpy           reference simulations, measurement of pitch
 test?        python3-siconos         the published nonsmooth solver: its tests are skipped, scripts/bench.sh siconos cannot run
 test?        python3-mpmath          high-precision references: their tests are skipped
 test?        python3-h5py            independent reader of .h5 recordings: its tests are skipped
+test?        pybind11-dev            the Python package is not built, and not tested
+test?        python3-dev             Python's headers: the Python package is not built, and not tested
+test?        python3-xarray          labels and netCDF: their tests are skipped
+test?        python3-h5netcdf        independent reader of netCDF: its tests are skipped
+test?        python3-jsonschema      independent judge of the schema of scenes: its test is skipped
+test?        python3-distributed     campaigns on Dask: their test is skipped
+test?        slurmctld               campaigns on Slurm: their test is skipped
+test?        slurmd                  campaigns on Slurm: their test is skipped
+test?        slurm-client            campaigns on Slurm: their test is skipped
+test?        munge                   campaigns on Slurm: their test is skipped
 test?        midicsv                 independent reader of MIDI files: its tests are skipped
+test?        sordi                   reads LV2 bundles (lv2_validate): its test is skipped
+test?        lilv-utils              what LV2 hosts see (lv2info): its test is skipped
+test?        jalv                    LV2 host: live.jalv is skipped
 test?        jackd2                  sound server without hardware: live.* are skipped
 test?        jack-example-tools|jackd2 jack_wait and jack_rec: live.* are skipped
 full         clang                   libFuzzer and sanitizer builds
@@ -60,9 +86,15 @@ bench        python3-matplotlib      plots of docs/benchmarks.md
 bench?       csound                  peer (plucked strings, prepared piano): scripts/bench.sh peers cannot run
 bench?       libstk-dev              peer (plucked strings): scripts/bench.sh peers cannot run
 bench?       faust                   peer (physical models): scripts/bench.sh peers cannot run
+voice        fluidsynth              plays the recorded sets (scripts/voice.py)
+voice        fluid-soundfont-gm      recorded set
+voice        timgm6mb-soundfont      recorded set
+voice        musescore-general-soundfont recorded set
+voice        python3-matplotlib      picture of docs/voicing.md
 coverage     clang                   counts what runs
 coverage     libclang-rt-CLANG-dev|libclang-common-CLANG-dev its run time
 coverage     llvm                    sums it up
+hosts        ardour                  hosts.ardour
 realtime     clang-22                -Wfunction-effects, -fsanitize=realtime
 realtime     libclang-rt-22-dev      the sanitizer's run time
 realtime     llvm-22                 llvm-symbolizer: lines instead of addresses
@@ -81,13 +113,16 @@ LIST
 uses=" program "
 for argument in "$@"; do
     case "$argument" in
+        --python) uses+="python " ;;
         --test) uses+="test " ;;
         --full) uses+="test full " ;;
         --bench) uses+="test bench " ;;
+        --voice) uses+="test voice " ;;
         --coverage) uses+="test coverage " ;;
+        --hosts) uses+="test hosts " ;;
         --realtime) uses+="test realtime " ;;
         --compilers) uses+="test compilers " ;;
-        *) echo "setup.sh: unknown argument '$argument' (allowed: --test, --full, --bench, --coverage, --realtime, --compilers)" >&2; exit 2 ;;
+        *) echo "setup.sh: unknown argument '$argument' (allowed: --python, --test, --full, --bench, --voice, --coverage, --hosts, --realtime, --compilers)" >&2; exit 2 ;;
     esac
 done
 
@@ -109,7 +144,8 @@ fi
 declare -A status
 while read -r name state; do status[$name]=$state; done < <(dpkg-query -W -f '${Package} ${db:Status-Status}\n')
 installed() { [[ ${status[$1]:-} == installed ]]; }
-available() { [[ $(apt-cache policy "$1" 2> /dev/null) =~ Candidate:\ [^\(] ]]; }
+# By its own name: where no package has it, apt takes one with a plus sign for a pattern.
+available() { [[ $(apt-cache policy "$1" 2> /dev/null) =~ ^"$1":[^:]*Installed:[^:]*Candidate:\ [^\(] ]]; }
 clang_version() { apt-cache depends clang 2> /dev/null | sed -n 's/.*Depends: clang-\([0-9]*\)$/\1/p'; }
 
 # choose: sorts what is wanted into packages (there or to be had), left_out (optional ones) and unknown.

@@ -94,11 +94,11 @@ if $full; then
     stage "other instruction sets" scripts/check_neon.sh
     # Oracles, soaks, pitches and long references check numbers, which the release run has done; here only memory and threads are
     # at stake.
-    numbers='RenderPitch|TwoRenders|TheDemoStrikes|LatticeReference|StepCoefficients.*AtRandom'
+    numbers='RenderPitch|TwoRenders|TheDemoStrikes|LatticeReference|StepCoefficients.*AtRandom|EqualsRender|ManyContacts|OnAnArch'
     stage "build (asan-ubsan)" build asan-ubsan jawari engine_tests host_tests thread_tests plugin_tests rivals_tests \
         play_tests stress_tests jawari_fuzzers &&
-        tests asan-ubsan -LE 'peers|presets|examples|live' -E "$numbers" && stage "fuzzing" fuzz
-    stage "build (tsan)" build tsan jawari thread_tests plugin_tests && tests tsan -L 'threads|plugin'
+        tests asan-ubsan -LE 'peers|presets|examples|live|hosts' -E "$numbers" && stage "fuzzing" fuzz
+    stage "build (tsan)" build tsan jawari thread_tests plugin_tests && tests tsan -L 'threads|plugin' -E "$numbers"
 fi
 
 printf '%s\n' "${failures[@]}"

@@ -3,8 +3,6 @@
 
 #include <optional>
 #include <string>
-#include <utility>
-#include <variant>
 
 #include "jawari/result.h"
 
@@ -32,23 +30,7 @@ using MaybeError = std::optional<Error>;
 
 /// A value or an Error.
 template <class T>
-class Outcome {
-  public:
-    Outcome(T value) : content_(std::move(value)) {}      // NOLINT(google-explicit-constructor)
-    Outcome(Error error) : content_(std::move(error)) {}  // NOLINT(google-explicit-constructor)
-
-    [[nodiscard]] bool ok() const { return std::holds_alternative<T>(content_); }
-    explicit operator bool() const { return ok(); }
-
-    /// Precondition: ok().
-    [[nodiscard]] T& value() { return std::get<T>(content_); }
-    [[nodiscard]] const T& value() const { return std::get<T>(content_); }
-    /// Precondition: !ok().
-    [[nodiscard]] const Error& error() const { return std::get<Error>(content_); }
-
-  private:
-    std::variant<T, Error> content_;
-};
+using Outcome = Result<T, Error>;
 
 /// An invalid input file: `bass.json: strings[0].length_m: -1 (allowed: 0.001 to 100)`.
 Error invalid_input(const std::string& file, const Failure& failure);

@@ -91,6 +91,8 @@ bool is_of_kind(std::string_view bytes, FileContent kind) {
             return bytes.starts_with("\x89HDF");
         case FileContent::Midi:
             return is_midi(bytes);
+        case FileContent::State:
+            return bytes.starts_with("jawari.state/");
     }
     return false;
 }
@@ -111,6 +113,8 @@ const char* name_of_kind(FileContent kind) {
             return "an HDF5 file";
         case FileContent::Midi:
             return "a MIDI file";
+        case FileContent::State:
+            return "a saved state";
     }
     return "";
 }

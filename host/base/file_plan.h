@@ -12,7 +12,7 @@
 namespace jawari::host {
 
 /// Kinds of files that commands write.
-enum class FileContent { Sound, RawSound, Json, Picture, Table, Hdf5, Midi };
+enum class FileContent { Sound, RawSound, Json, Picture, Table, Hdf5, Midi, State };
 
 /// The file behind a name, links followed, also where no file is yet: two names of one file compare equal.
 struct FileIdentity {

@@ -95,6 +95,16 @@ struct ProgramEnd {
 /// The first argument is its name.
 ProgramEnd run_program(const std::vector<std::string>& arguments, int input, int output, int error);
 
+/// This process becomes the program, with the arguments of run_program(). Returns only if it cannot be
+/// started: why.
+std::string become_program(const std::vector<std::string>& arguments);
+
+/// Of this program's file; empty if the system does not say.
+std::string own_path();
+
+/// Of this process and of what it starts or becomes.
+void set_environment(const std::string& name, const std::string& value);
+
 /// Keeps all pages in memory, now and later.
 bool lock_memory();
 

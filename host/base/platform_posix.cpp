@@ -20,6 +20,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <fstream>
 
@@ -246,6 +247,27 @@ ProgramEnd run_program(const std::vector<std::string>& arguments, int input, int
     }
     end.succeeded = WIFEXITED(status) && WEXITSTATUS(status) == 0;
     return end;
+}
+
+std::string become_program(const std::vector<std::string>& arguments) {
+    std::vector<std::string> words = arguments;
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    execvp(pointers.front(), pointers.data());
+    return std::strerror(errno);
+}
+
+std::string own_path() {
+    std::string path(longest_path_bytes, '\0');
+    const ssize_t length = readlink("/proc/self/exe", path.data(), path.size());
+    if (length <= 0) return {};
+    path.resize(static_cast<std::size_t>(length));
+    return path;
+}
+
+void set_environment(const std::string& name, const std::string& value) {
+    setenv(name.c_str(), value.c_str(), 1);
 }
 
 bool lock_memory() {

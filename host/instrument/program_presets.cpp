@@ -61,7 +61,21 @@ constexpr std::array<Family, 19> stand_ins{{
     {114, 114, "dulcimer"},       // steel drums
 }};
 
+constexpr std::array<std::string_view, 2> below_keyboards{"harpsichord", "bass-fretless"};
+constexpr std::array<std::string_view, 2> below_others{"bass-fretless", "harpsichord"};
+constexpr std::array<std::string_view, 3> above_basses{"guitar-electric", "dulcimer", "harpsichord"};
+constexpr std::array<std::string_view, 2> above_others{"dulcimer", "harpsichord"};
+
 }  // namespace
+
+std::span<const std::string_view> neighbour_presets(std::string_view preset, bool below) {
+    const bool bass = preset.starts_with("bass");
+    if (!below && bass) return above_basses;
+    if (!below) return above_others;
+    const bool keyboard = preset == "dulcimer" || preset == "clavichord" || preset == "prepared";
+    if (keyboard) return below_keyboards;
+    return below_others;
+}
 
 std::span<const std::string_view> numbered_presets() {
     return presets;

@@ -23,4 +23,7 @@ std::optional<std::string_view> program_preset(int bank, int program);
 /// in register and in how its notes begin. Nothing for percussion without a pitch and for sound effects.
 std::optional<std::string_view> nearest_preset(int program);
 
+/// Presets that may play keys below (or above) those that a preset has strings for, the first one first.
+std::span<const std::string_view> neighbour_presets(std::string_view preset, bool below);
+
 }  // namespace jawari::host

@@ -4,6 +4,13 @@
 
 namespace jawari::host {
 
+namespace {
+
+/// At the top of the modulation wheel: a strong vibrato of the left hand. The parameter itself goes further.
+constexpr double wheel_vibrato_semitones = 0.5;
+
+}  // namespace
+
 MidiBinding whole_range(MidiSource source, int number, ParameterId parameter) {
     const ParameterDeclaration& declared = declaration_of(parameter);
     return {source, number, -1, parameter, declared.low, declared.high, declared.curve};
@@ -11,10 +18,10 @@ MidiBinding whole_range(MidiSource source, int number, ParameterId parameter) {
 
 MidiMap default_midi_map() {
     MidiMap map;
-    const auto bind = [&map](int controller, ParameterId parameter) {
-        map.bindings[map.count++] = whole_range(MidiSource::Controller, controller, parameter);
+    const auto bind = [&map](int controller, ParameterId parameter) -> MidiBinding& {
+        return map.bindings[map.count++] = whole_range(MidiSource::Controller, controller, parameter);
     };
-    bind(1, ParameterId::VibratoDepth);
+    bind(1, ParameterId::VibratoDepth).high = wheel_vibrato_semitones;
     bind(7, ParameterId::Volume);
     bind(10, ParameterId::Pan);
     bind(11, ParameterId::Expression);

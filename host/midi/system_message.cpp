@@ -163,6 +163,54 @@ int channel_of_part(int part) {
     return part <= 9 ? part - 1 : part;
 }
 
+ChannelMessage control(int channel, int controller, int value) {
+    return {static_cast<std::uint8_t>(0xB0 + channel), static_cast<std::uint8_t>(controller),
+            static_cast<std::uint8_t>(value)};
+}
+
+ChannelMessage program(int channel, int number) {
+    return {static_cast<std::uint8_t>(0xC0 + channel), static_cast<std::uint8_t>(number), 0};
+}
+
+/// 40 1x: what controllers and program changes say as well.
+DecodedExclusive gs_part(int channel, int address, Bytes data) {
+    switch (address) {
+        case 0x00:
+            if (data.size() < 3) return {{}, "GS part"};  // two of data, a checksum
+            return {{control(channel, 0, data[0]), program(channel, data[1])}, "GS tone"};
+        case 0x15:
+            return {{system(SystemKind::Rhythm, channel, data[0] > 0 ? 1 : 0)}, "GS rhythm part"};
+        case 0x19:
+            return {{control(channel, 7, data[0])}, "GS part level"};
+        case 0x1C:
+            if (data[0] == 0) return {{}, "GS random pan"};
+            return {{control(channel, 10, data[0])}, "GS part pan"};
+        default:
+            return {{}, "GS part"};
+    }
+}
+
+/// 08 nn: the same of XG.
+DecodedExclusive xg_part(int channel, int address, std::uint8_t value) {
+    switch (address) {
+        case 0x01:
+            return {{control(channel, 0, value)}, "XG part bank"};
+        case 0x02:
+            return {{control(channel, 32, value)}, "XG part bank"};
+        case 0x03:
+            return {{program(channel, value)}, "XG part program"};
+        case 0x07:
+            return {{system(SystemKind::Rhythm, channel, value > 0 ? 1 : 0)}, "XG part mode"};
+        case 0x0B:
+            return {{control(channel, 7, value)}, "XG part volume"};
+        case 0x0E:
+            if (value == 0) return {{}, "XG random pan"};
+            return {{control(channel, 10, value)}, "XG part pan"};
+        default:
+            return {{}, "XG part"};
+    }
+}
+
 /// 41, device, 42 12, three bytes of address, data, checksum.
 DecodedExclusive gs(Bytes bytes) {
     const auto is = [bytes](int high, int middle, int low) {
@@ -174,13 +222,11 @@ DecodedExclusive gs(Bytes bytes) {
     if (is(0x40, 0x00, 0x04)) return {{volume_of(value)}, "GS master volume"};
     if (is(0x40, 0x00, 0x05)) return {{system(SystemKind::MasterCoarse, value)}, "GS master key shift"};
     if (is(0x40, 0x00, 0x00) && data.size() >= 4) return {{tune_of_nibbles(data)}, "GS master tuning"};
-    if (bytes[4] == 0x40 && (bytes[5] & 0xF0) == 0x10 && bytes[6] == 0x15)
-        return {{system(SystemKind::Rhythm, channel_of_part(bytes[5] & 0x0F), value > 0 ? 1 : 0)},
-                "GS rhythm part"};
     if (bytes[4] == 0x40 && bytes[5] == 0x01 && bytes[6] >= 0x30 && bytes[6] < 0x38) return {{}, "GS reverb"};
     if (bytes[4] == 0x40 && bytes[5] == 0x01 && bytes[6] >= 0x38 && bytes[6] < 0x50) return {{}, "GS chorus"};
     if (bytes[4] == 0x40 && bytes[5] == 0x01) return {{}, "GS patch"};
-    if (bytes[4] == 0x40 && (bytes[5] & 0xF0) == 0x10) return {{}, "GS part"};
+    if (bytes[4] == 0x40 && (bytes[5] & 0xF0) == 0x10)
+        return gs_part(channel_of_part(bytes[5] & 0x0F), bytes[6], data);
     if (bytes[4] == 0x41) return {{}, "GS drum set"};
     return {{}, "GS"};
 }
@@ -196,9 +242,8 @@ DecodedExclusive xg(Bytes bytes) {
     if (is(0x00, 0x00, 0x04)) return {{volume_of(value)}, "XG master volume"};
     if (is(0x00, 0x00, 0x06)) return {{system(SystemKind::MasterCoarse, value)}, "XG transposition"};
     if (is(0x00, 0x00, 0x00) && data.size() >= 4) return {{tune_of_nibbles(data)}, "XG master tuning"};
-    if (bytes[3] == 0x08 && bytes[4] < 16 && bytes[5] == 0x07)
-        return {{system(SystemKind::Rhythm, bytes[4], value > 0 ? 1 : 0)}, "XG part mode"};
     if (bytes[3] == 0x02 || bytes[3] == 0x03) return {{}, "XG effects"};
+    if (bytes[3] == 0x08 && bytes[4] < 16) return xg_part(bytes[4], bytes[5], value);
     if (bytes[3] == 0x08) return {{}, "XG part"};
     if (bytes[3] == 0x06 || bytes[3] == 0x07) return {{}, "XG display"};
     return {{}, "XG"};

@@ -32,15 +32,16 @@ struct ContactEvent {
 
 struct ProbeSignal {
     std::string name;  ///< as in the CSV header
-    std::string unit;  ///< "m", "m/s", "N" or "J"
+    std::string unit;  ///< "m", "m/s", ...
     Quantity quantity = Quantity::Displacement;
     std::vector<double> values;  ///< at SceneRecording::times_s
 };
 
 struct StringRecording {
     std::string name;
+    bool is_string = true;  ///< else it has no shape to draw, and places may be numbers of contacts
     double length_m = 0;
-    std::vector<double> grid_m;            ///< from 0 to length_m, both included
+    std::vector<double> grid_m;            ///< from 0 to length_m, both included; empty if it is no string
     std::vector<Snapshot> snapshots;       ///< in order of time, the first at t = 0
     std::vector<ObstaclePoint> obstacles;  ///< may be empty
     std::vector<ContactEvent> events;      ///< in order of time; may be empty

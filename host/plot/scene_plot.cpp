@@ -152,7 +152,7 @@ std::string snapshots_panel(const StringRecording& string, const Scale& time, co
     if (!times.empty) curves.emplace_back("$shapes using 1:2:3 with lines lw 1.4 lc palette notitle");
 
     Range along{0, string.length_m, false};
-    const std::string what = ": string and obstacles";
+    const std::string what = string.is_string ? ": string and obstacles" : ": obstacles";
     const std::string title = shortened(string.name, most_title - what.size()) + what;
     std::string commands = data + "set title " + quote(title) + "\n" + set_range("x", along) +
                            set_range("y", axis) + viridis_palette() + place.legend_below_bar() +
@@ -163,14 +163,32 @@ std::string snapshots_panel(const StringRecording& string, const Scale& time, co
     return commands + joined(curves);
 }
 
-const char* quantity_name(Quantity quantity) {
+std::string quantity_name(Quantity quantity) {
     switch (quantity) {
         case Quantity::Displacement:
             return "displacement";
         case Quantity::Velocity:
             return "velocity";
+        case Quantity::Acceleration:
+            return "acceleration";
+        case Quantity::Slope:
+            return "slope";
+        case Quantity::NutForce:
+            return "nut force";
+        case Quantity::BridgeForce:
+            return "bridge force";
+        case Quantity::ModeDisplacement:
+            return "modal displacement";
+        case Quantity::ModeVelocity:
+            return "modal velocity";
+        case Quantity::ModeEnergy:
+            return "modal energy";
         case Quantity::ContactForce:
             return "contact force";
+        case Quantity::HammerForce:
+            return "hammer force";
+        case Quantity::HammerDisplacement:
+            return "hammer displacement";
         case Quantity::Energy:
             return "energy";
     }
@@ -187,8 +205,10 @@ std::string place_of(const ProbeSignal& signal) {
     const auto at = name.rfind('@');
     if (at == std::string::npos) return (signal.quantity == Quantity::Energy ? "H" : name) + repetition;
     const std::string place = name.substr(at + 1);
-    const std::string contact = "contact";
-    if (place.rfind(contact, 0) == 0) return contact + " " + place.substr(contact.size()) + repetition;
+    for (const std::string numbered : {"contact", "hammer", "mode", "point"}) {
+        if (place.rfind(numbered, 0) == 0)
+            return std::string(numbered).append(" ").append(place.substr(numbered.size())).append(repetition);
+    }
     const auto position_m = parse_number(place);
     return "x = " + (position_m ? formatted("%.6g", *position_m) : place) + " m" + repetition;
 }
@@ -215,7 +235,7 @@ std::string signals_panel(const SceneRecording& recording, const std::vector<con
         curves.push_back("$" + name + " using 1:2 with lines lw 1.2 lc rgb '" + line_colour(i) + "' title " +
                          quote(shortened(place_of(*signals[i]), legend_characters)));
     }
-    std::string title = std::string("probes: ") + quantity_name(signals[0]->quantity);
+    std::string title = "probes: " + quantity_name(signals[0]->quantity);
     if (shown < signals.size()) {
         title += " (" + std::to_string(shown) + " of " + std::to_string(signals.size()) + ")";
     }
@@ -266,7 +286,7 @@ std::string contactogram_panel(const SceneRecording& recording, const StringReco
 
     std::string commands = data + set_range("x", time_range(recording, time)) + impulse_palette() +
                            "set xlabel " + quote("time (" + time.unit + ")") + "\n" +
-                           place.y_label("contact position x (m)");
+                           place.y_label(string.is_string ? "contact position x (m)" : "contact");
     Range positions;
     for (const ObstaclePoint& obstacle : string.obstacles) positions.include(obstacle.position_m);
     if (positions.empty) positions = {0, string.length_m, false};

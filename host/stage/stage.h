@@ -25,8 +25,8 @@ inline constexpr std::size_t most_staged_instruments = 16;
 struct StageOutput {
     double* left = nullptr;   ///< full scale is 1
     double* right = nullptr;  ///< full scale is 1
-    /// Empty, or channels for the strings' pickups without pan and body: string n plays on channel n, all
-    /// that have none of their own on the last. Needs StageSettings::string_outputs.
+    /// Empty, or channels for what each string gives to the sound, without pan: string n plays on channel n,
+    /// all that have none of their own on the last. Needs StageSettings::string_outputs.
     std::span<double* const> strings;
 };
 

@@ -48,8 +48,9 @@ class Exclusives {
         open_ = byte == 0xF0;
         bytes_.clear();
         for (const host::ChannelMessage& message : messages)
-            fuzz::require(host::is_system(message) && message.data1 < 0x80 && message.data2 < 0x80,
-                          "a system message");
+            fuzz::require((host::is_system(message) || (message.status >= 0x80 && message.status < 0xF0)) &&
+                              message.data1 < 0x80 && message.data2 < 0x80,
+                          "a message to the instrument or a channel");
         return messages;
     }
 

@@ -39,6 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!strict) return 0;
     fuzz::require(strict.value().repairs.empty(), "a strict reading repairs nothing");
     fuzz::require(lenient.ok(), "a lenient reading takes what a strict one takes");
-    fuzz::require(lenient.value().events.size() >= strict.value().events.size(), "the same events");
+    const bool cut = !lenient.value().repairs.empty();  // what comes long after the last note is left out
+    fuzz::require(cut || lenient.value().events.size() >= strict.value().events.size(), "the same events");
     return 0;
 }

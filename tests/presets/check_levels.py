@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Levels of the presets: a chord at velocity 127 peaks between -12 and -1 dBFS, nothing clips, no DC, both sides alike.
 
-usage: check_levels.py PROGRAM [--preset NAME]... [--suggest]     --suggest: print the gains that put the peaks at AIM_DB
+usage: check_levels.py PROGRAM [--preset NAME]...
 """
 import argparse
 import concurrent.futures
@@ -13,9 +13,6 @@ import numpy as np
 
 import play
 import preset_model as model
-
-sys.path.append(str(model.ROOT / "scripts" / "instruments"))
-from levels import AIM_DB  # noqa: E402
 
 # One note per string where the strings allow it: the loudest chord that a player would play.
 CHORDS = {
@@ -65,7 +62,6 @@ def main():
     parser.add_argument("program")
     parser.add_argument("--preset", action="append", choices=model.NAMES)
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--suggest", action="store_true")
     parser.add_argument("--table", help="also write the figures as a Markdown table")
     arguments = parser.parse_args()
     problems = []
@@ -76,8 +72,6 @@ def main():
             print(f"{row['name']:16s} peak {row['peak_db']:6.1f} dBFS  DC {row['dc_db']:6.1f} dBFS  left-right {row['balance_db']:+5.2f} dB  "
                   f"{stats['impulses']} impulses, {stats['real_time_factor']:.1f} times real time, compile {stats['cpu_compile_s']:.2f} s")
             table.append(f"| {row['name']} | {row['peak_db']:.1f} | {row['dc_db']:.0f} | {row['balance_db']:+.1f} | {stats['impulses']} |")
-            if arguments.suggest:
-                print(f'    "{row["name"]}": {row["gain"] * 10 ** ((AIM_DB - row["peak_db"]) / 20):.3g},')
             problems += list(problems_of(row))
     if arguments.table:
         pathlib.Path(arguments.table).write_text("\n".join(table) + "\n")

@@ -84,6 +84,61 @@ std::string kind_of(const StringPlan& plan, const HostileScene& hostile) {
     return kind + (plan.tabled ? " tabled" : plan.lifted ? " lifted" : " string");
 }
 
+/// Compliant contacts are solved in rounds over all of them.
+constexpr std::size_t most_compliant_contacts = 60;
+
+Compliance choose_compliance(Dice& dice) {
+    Compliance compliance;
+    compliance.stiffness = dice.spread(1e2, 1e12);
+    compliance.exponent = dice.chance(0.4) ? dice.pick({1, 1.5, 3}) : dice.uniform(1, 3);
+    if (dice.chance(0.5)) compliance.loss_s_per_m = dice.spread(1e-3, 1e3);
+    if (dice.chance(0.1)) compliance.resistance_kg_per_s = dice.spread(1e-4, 1e2);
+    return compliance;
+}
+
+void add_hammers(Dice& dice, double frame_s, StringDescription& string) {
+    for (std::size_t n = dice.whole(1, 3); n > 0; --n) {
+        FlyingHammer hammer;
+        hammer.position_m = dice.uniform(0, string.length_m);
+        hammer.side = dice.chance(0.5) ? Side::Below : Side::Above;
+        hammer.time_s = dice.uniform(0, 100 * frame_s);
+        hammer.mass_kg = string.linear_density_kg_per_m * string.length_m * dice.spread(1e-4, 1e2);
+        hammer.velocity_m_per_s = dice.spread(1e-3, 1e2);
+        hammer.compliance = choose_compliance(dice);
+        hammer.compliance.resistance_kg_per_s = 0;
+        string.hammers.push_back(hammer);
+    }
+}
+
+void add_springs(Dice& dice, double height_m, StringDescription& string) {
+    for (std::size_t n = dice.whole(1, 2); n > 0; --n) {
+        SpringDescription spring;
+        spring.position_m = dice.uniform(0, string.length_m);
+        spring.height_m = height_m * dice.uniform(-1, 1);
+        spring.stiffness_N_per_m = dice.spread(1e-2, 1e8);
+        if (dice.chance(0.3)) spring.resistance_kg_per_s = dice.spread(1e-4, 1e2);
+        string.springs.push_back(spring);
+    }
+}
+
+void add_laboratory(Dice& dice, HostileScene& hostile) {
+    const double frame_s = 1 / hostile.description.output_rate_hz;
+    for (StringDescription& string : hostile.description.strings) {
+        if (string.contacts.size() > most_compliant_contacts) string.contacts.resize(most_compliant_contacts);
+        if (dice.chance(0.8)) {
+            for (ContactDescription& contact : string.contacts) {
+                if (dice.chance(0.6)) contact.compliance = choose_compliance(dice);
+            }
+        }
+        if (dice.chance(0.3)) add_hammers(dice, frame_s, string);
+        if (dice.chance(0.2)) add_springs(dice, hostile.height_m, string);
+        for (ProbeDescription& probe : string.probes) {
+            if (probe.contact >= string.contacts.size()) probe.quantity = Quantity::Energy;
+        }
+    }
+    hostile.kind += " laboratory";
+}
+
 }  // namespace
 
 HostileScene make_hostile_scene(std::uint64_t seed) {
@@ -106,6 +161,7 @@ HostileScene make_hostile_scene(std::uint64_t seed) {
     }
     hostile.kind = kind_of(plan, hostile);
     hostile.denormals = dice.chance(0.25);
+    if (seed >= first_laboratory_seed && scene.scheme == Scheme::Exact) add_laboratory(dice, hostile);
     return hostile;
 }
 

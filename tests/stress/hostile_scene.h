@@ -21,6 +21,10 @@ struct HostileScene {
     double height_m = 0;     ///< of obstacles and forces
 };
 
+/// From this seed on scenes also have what laboratories have: compliant contacts, springs, hammers. A seed
+/// below it means what it has meant before there were any.
+inline constexpr std::uint64_t first_laboratory_seed = 200000;
+
 HostileScene make_hostile_scene(std::uint64_t seed);
 
 }  // namespace jawari::stress

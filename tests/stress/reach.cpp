@@ -32,6 +32,7 @@ Reach reach_of(const StringModel& model, std::span<const double> row) {
 }
 
 double bound_of(double reach, double energy_J) {
+    if (reach == 0) return 0;
     return std::isfinite(reach) ? reach * std::sqrt(energy_J) : reach;
 }
 
@@ -53,7 +54,7 @@ double kick_of(const StringModel& model, std::span<const double> row) {
 
 AlignedVector<double> shape_row(const StringModel& model, double x) {
     AlignedVector<double> row(model.shape->stride, 0.0);
-    for (std::size_t k = 0; k < model.shape->mode_count; ++k)
+    for (std::size_t k = 0; k < model.shape->mode_count - model.shape->hammer_count; ++k)
         row[k] = mode_shape(k + 1, x, model.shape->length_m);
     return row;
 }

@@ -1,6 +1,7 @@
 // A subset of the seeds that scripts/stress.py plays by the hundred thousand.
 #include <gtest/gtest.h>
 
+#include "hostile_scene.h"
 #include "run_seed.h"
 
 namespace jawari::stress {
@@ -32,6 +33,11 @@ TEST_P(Seeds, KeepEveryInvariant) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ranges, Seeds, testing::Range<std::uint64_t>(0, 6),
+                         [](const auto& range) { return "From" + std::to_string(1000 * range.param); });
+
+INSTANTIATE_TEST_SUITE_P(LaboratoryRanges, Seeds,
+                         testing::Range<std::uint64_t>(first_laboratory_seed / 1000,
+                                                       first_laboratory_seed / 1000 + 3),
                          [](const auto& range) { return "From" + std::to_string(1000 * range.param); });
 
 TEST(Seeds, PlayTheSameWhenPlayedAgain) {

@@ -7,6 +7,7 @@
 #include "invariants.h"
 #include "jawari/scene/energy.h"
 #include "string/contact/impact_law.h"
+#include "string/model/compliant_law.h"
 
 namespace jawari::stress {
 namespace {
@@ -40,6 +41,10 @@ bool has_independent_contacts(const StringModel& model) {
         if (places[i] - places[i - 1] < apart) return false;
     }
     return true;
+}
+
+bool gives_way(const StringModel& model, std::size_t c) {
+    return !model.shape->contact_compliance.empty() && !is_rigid(model.shape->contact_compliance[c]);
 }
 
 /// How often q and v have been rounded: in every step, but once in a frame that is flown.
@@ -83,7 +88,8 @@ StringWatch::StringWatch(const StringModel& model, const StringState& start, std
         probes_.push_back(
             reach_of(model, {model.shape->probe_rows.data() + p * model.shape->stride, model.shape->stride}));
     step_rounding_ = step_rounding(model);
-    may_be_unsolvable_ = model.shape->contact_count > largest_factor || may_contradict(model);
+    may_be_unsolvable_ = model.shape->contact_count > largest_factor || may_contradict(model) ||
+                         !model.shape->contact_compliance.empty();
     highest_ = energy(model, start);
 }
 
@@ -183,7 +189,8 @@ void StringWatch::check_energy(const StringState& state, Judge& judge) const {
     const double gap_size = bound_of(longest_extent_, highest_) + highest_obstacle_;
     if (state.metering == Metering::Step) {
         const double allowed = of_step + kick_rounding(model_, strongest_.kicks, highest_) +
-                               work_rounding(model_, strongest_.impulses_Ns, rise_);
+                               work_rounding(model_, strongest_.impulses_Ns, rise_) +
+                               stored_rounding(gap_size);
         check_balance(judge, state.energy, allowed, name_);
         const bool passive = model_.shape->scheme == Scheme::Exact && is_passive(model_.shape->law);
         const double of_gaps = work_rounding(model_, strongest_.impulses_Ns, gap_size) +
@@ -193,6 +200,13 @@ void StringWatch::check_energy(const StringState& state, Judge& judge) const {
     }
     const double rise = energy(model_, state) - lag_work(state) - before_;
     check_rise_of_block(judge, rise, rise_of_block_allowed(state), name_);
+}
+
+/// What compliant contacts store is known as well as their depth is: a force works along that doubt.
+double StringWatch::stored_rounding(double gap_size) const {
+    return model_.shape->contact_compliance.empty()
+               ? 0.0
+               : 4 * work_rounding(model_, strongest_.impulses_Ns, gap_size);
 }
 
 double StringWatch::rise_of_block_allowed(const StringState& state) const {
@@ -228,6 +242,7 @@ void StringWatch::check_gaps(const StringState& state, Judge& judge) const {
     if (!proven || model_.shape->contact_count == 0) return;
     double deepest_allowed = 0;
     for (std::size_t c = 0; c < model_.shape->contact_count; ++c) {
+        if (gives_way(model_, c)) continue;
         const double allowed = depth_bound(c);
         deepest_allowed = std::max(deepest_allowed, allowed);
         const double gap =
@@ -268,6 +283,8 @@ void StringWatch::check_outputs(const StringState& state, std::span<const std::s
                 break;
             case Quantity::ContactForce:
                 check_not_negative(judge, outputs[p], where);
+                break;
+            default:  // hostile scenes read no others
                 break;
         }
     }

@@ -49,6 +49,7 @@ class StringWatch {
     [[nodiscard]] double gap_rounding(std::size_t contact) const;
     [[nodiscard]] double lag_work(const StringState& state) const;
     [[nodiscard]] double lag_work_size(const StringState& state) const;
+    [[nodiscard]] double stored_rounding(double gap_size) const;
     [[nodiscard]] double rise_of_block_allowed(const StringState& state) const;
 
     const StringModel& model_;

@@ -51,64 +51,68 @@ enum class Reach {
 
 /// What a parameter is.
 struct ParameterDeclaration {
-    ParameterId id;          ///< its number, the index into parameter_table()
-    std::string_view key;    ///< its name in files and on the command line; stable
-    std::string_view unit;   ///< of low, high and neutral: "1" for ratios, else SI or musical
-    double low;              ///< smallest value
-    double high;             ///< largest value
-    double neutral;          ///< value at which the instrument is as its preset describes it
-    Curve curve;             ///< how a control covers low to high
-    Reach reach;             ///< what follows a change
-    std::string_view text;   ///< what it does, one phrase
-    std::string_view name;   ///< what people read beside its control
-    std::string_view group;  ///< of controls that belong together
+    ParameterId id;               ///< its number, the index into parameter_table()
+    std::string_view key;         ///< its name in files and on the command line; stable
+    std::string_view unit;        ///< of low, high and neutral: "1" for ratios, else SI or musical
+    double low;                   ///< smallest value
+    double high;                  ///< largest value
+    double neutral;               ///< value at which the instrument is as its preset describes it
+    Curve curve;                  ///< how a control covers low to high
+    Reach reach;                  ///< what follows a change
+    std::string_view text;        ///< what it does, one phrase
+    std::string_view name;        ///< what people read beside its control
+    std::string_view group;       ///< of controls that belong together
+    std::string_view short_name;  ///< where there is room for eight letters
 };
 
 namespace detail {
 using enum ParameterId;
 inline constexpr std::array<ParameterDeclaration, 20> parameters{{
     {Volume, "volume", "1", 0, 1, 1, Curve::Squared, Reach::Sounding, "Level of the channel's notes",
-     "Volume", "Mix"},
+     "Volume", "Mix", "Volume"},
     {Expression, "expression", "1", 0, 1, 1, Curve::Squared, Reach::Sounding,
-     "Level of the channel's notes, beside the volume", "Expression", "Mix"},
+     "Level of the channel's notes, beside the volume", "Expression", "Mix", "Express"},
     {Pan, "pan", "1", -1, 1, 0, Curve::Linear, Reach::Sounding,
-     "Left (-1) to right (1), added to each string's own place", "Pan", "Mix"},
+     "Left (-1) to right (1), added to each string's own place", "Pan", "Mix", "Pan"},
     {PluckPosition, "pluck_position", "1", 0.25, 4, 1, Curve::Exponential, Reach::NextNote,
-     "Factor of the exciter's distance from the bridge", "Pluck position", "Pluck"},
+     "Factor of the exciter's distance from the bridge", "Pluck position", "Pluck", "PluckPos"},
     {PluckHardness, "pluck_hardness", "1", 0.25, 4, 1, Curve::Exponential, Reach::NextNote,
-     "Speed of release, stiffness of felt; above 1 is brighter", "Pluck hardness", "Pluck"},
+     "Speed of release, stiffness of felt; above 1 is brighter", "Pluck hardness", "Pluck", "Hardness"},
     {VelocityCurve, "velocity_curve", "1", 0.25, 4, 1, Curve::Exponential, Reach::NextNote,
-     "Exponent on note-on velocities; above 1 makes soft notes softer", "Velocity curve", "Pluck"},
+     "Exponent on note-on velocities; above 1 makes soft notes softer", "Velocity curve", "Pluck",
+     "VelCurve"},
     {PalmMute, "palm_mute", "1", 0, 1, 0, Curve::Linear, Reach::Sounding,
-     "How firmly the palm damps the strings", "Palm mute", "Right hand"},
+     "How firmly the palm damps the strings", "Palm mute", "Right hand", "PalmMute"},
     {PalmPosition, "palm_position", "1", 0.25, 4, 1, Curve::Exponential, Reach::NextNote,
-     "Factor of the palm's distance from the bridge", "Palm position", "Right hand"},
+     "Factor of the palm's distance from the bridge", "Palm position", "Right hand", "PalmPos"},
     {Harmonic, "harmonic", "1", 1, 7, 1, Curve::Stepped, Reach::NextNote,
-     "Natural harmonic: a light touch at 1/n of the string; 1 is off", "Harmonic", "Left hand"},
+     "Natural harmonic: a light touch at 1/n of the string; 1 is off", "Harmonic", "Left hand", "Harmonic"},
     {DeadNote, "dead_note", "1", 0, 1, 0, Curve::Linear, Reach::NextNote,
-     "How firmly the stopping hand damps a note that it does not press", "Dead note", "Left hand"},
+     "How firmly the stopping hand damps a note that it does not press", "Dead note", "Left hand",
+     "DeadNote"},
     {Articulation, "articulation", "1", 0, 16, 0, Curve::Stepped, Reach::NextNote,
-     "0: the preset chooses by velocity and string; n: its n-th exciter", "Articulation", "Pluck"},
+     "0: the preset chooses by velocity and string; n: its n-th exciter", "Articulation", "Pluck", "Artic"},
     {Legato, "legato", "1", 0, 1, 0, Curve::Stepped, Reach::NextNote,
      "1: a note that overlaps another of its channel is a hammer-on or pull-off on its string", "Legato",
-     "Left hand"},
+     "Left hand", "Legato"},
     {SlideTime, "slide_time", "s", 0, 2, 0, Curve::Squared, Reach::NextNote,
-     "Time of a slide from note to note in legato; 0: hammer-ons and pull-offs", "Slide time", "Left hand"},
+     "Time of a slide from note to note in legato; 0: hammer-ons and pull-offs", "Slide time", "Left hand",
+     "Slide"},
     {VibratoDepth, "vibrato_depth", "semitones", 0, 2, 0, Curve::Squared, Reach::Sounding,
-     "Amplitude of the vibrato by tension", "Vibrato depth", "Left hand"},
+     "Amplitude of the vibrato by tension", "Vibrato depth", "Left hand", "VibDepth"},
     {VibratoRate, "vibrato_rate", "Hz", 0.1, 20, 5, Curve::Exponential, Reach::Sounding,
-     "Rate of the vibrato", "Vibrato rate", "Left hand"},
+     "Rate of the vibrato", "Vibrato rate", "Left hand", "VibRate"},
     {BendRange, "bend_range", "semitones", 0, 96, 2, Curve::Linear, Reach::Host,
-     "Pitch wheel's range, as RPN 0 sets it", "Bend range", "Left hand"},
+     "Pitch wheel's range, as RPN 0 sets it", "Bend range", "Left hand", "BendRng"},
     {PickupMix, "pickup_mix", "1", 0, 1, 0.5, Curve::Linear, Reach::Sounding,
      "0: pickups of the first half alone, 0.5: as the preset mixes them, 1: those of the second half alone",
-     "Pickup mix", "Mix"},
+     "Pickup mix", "Mix", "Pickups"},
     {BodyMix, "body_mix", "1", 0, 2, 1, Curve::Linear, Reach::Sounding, "Factor of the body's sound",
-     "Body mix", "Mix"},
+     "Body mix", "Mix", "Body"},
     {ReleaseTime, "release_time", "1", 0.1, 10, 1, Curve::Exponential, Reach::NextNote,
-     "Factor of the decay time after note-off", "Release time", "Right hand"},
+     "Factor of the decay time after note-off", "Release time", "Right hand", "Release"},
     {Action, "action", "m", -0.002, 0.004, 0, Curve::Linear, Reach::NextNote,
-     "Distance added between the strings and everything below them", "Action", "Instrument"},
+     "Distance added between the strings and everything below them", "Action", "Instrument", "Action"},
 }};
 }  // namespace detail
 

@@ -86,10 +86,21 @@ double sin_pi(double t) {
     return std::sin(pi * r);
 }
 
+/// k x/L reduced to a whole turn, as the sum of two doubles on the way, so that its fractional part keeps
+/// full precision at high k.
+double half_turns(std::size_t k, double x, double length_m) {
+    const double mode = static_cast<double>(k);
+    const double ratio = x / length_m;
+    const double ratio_error = std::fma(-ratio, length_m, x) / length_m;
+    const double product = mode * ratio;
+    const double product_error = std::fma(mode, ratio, -product) + mode * ratio_error;
+    return std::remainder(product, 2.0) + product_error;
+}
+
 }  // namespace
 
 Modes modes_of(const StringDescription& string) {
-    JAWARI_ASSERT(string.length_m > 0 && string.linear_density_kg_per_m > 0);
+    JAWARI_ASSERT(string.shapes || (string.length_m > 0 && string.linear_density_kg_per_m > 0));
     if (const auto* physical = std::get_if<PhysicalModes>(&string.modes))
         return physical_modes(string, *physical);
     const auto& table = std::get<ModeTable>(string.modes);
@@ -100,13 +111,13 @@ Modes modes_of(const StringDescription& string) {
 }
 
 double mode_shape(std::size_t k, double x, double length_m) {
-    // k x/L as the sum of two doubles, so that its fractional part keeps full precision at high k.
-    const double mode = static_cast<double>(k);
-    const double ratio = x / length_m;
-    const double ratio_error = std::fma(-ratio, length_m, x) / length_m;
-    const double product = mode * ratio;
-    const double product_error = std::fma(mode, ratio, -product) + mode * ratio_error;
-    return std::sqrt(2 / length_m) * sin_pi(std::remainder(product, 2.0) + product_error);
+    return std::sqrt(2 / length_m) * sin_pi(half_turns(k, x, length_m));
+}
+
+double mode_slope(std::size_t k, double x, double length_m) {
+    const double turns = half_turns(k, x, length_m);
+    // cos(pi t) = sin(pi (1/2 - |t|)), |t| <= 1 and a little.
+    return std::sqrt(2 / length_m) * static_cast<double>(k) * pi / length_m * sin_pi(0.5 - std::abs(turns));
 }
 
 double pluck_coordinate(std::size_t k, const Pluck& pluck, double length_m) {

@@ -75,12 +75,17 @@ Resolution resolution_for(double error, double output_rate_hz) {
 }
 
 void keep_modes(StringDescription& string, std::size_t count) {
+    for (const ProbeDescription& probe : string.probes) count = std::max(count, probe.mode);
     const auto cut = [count](std::vector<double>& values) { values.resize(std::min(count, values.size())); };
     if (auto* physical = std::get_if<PhysicalModes>(&string.modes)) {
         physical->count = std::min(count, physical->count);
     } else if (auto* table = std::get_if<ModeTable>(&string.modes)) {
         cut(table->frequency_hz);
         cut(table->decay_per_s);
+    }
+    if (string.shapes) {
+        cut(string.shapes->modal_mass_kg);
+        for (std::vector<double>& point : string.shapes->points) cut(point);
     }
     if (auto* state = std::get_if<ModalState>(&string.initial.shape)) {
         cut(state->displacement);

@@ -6,10 +6,15 @@
 #include <memory>
 #include <string>
 
+#include "base/builtin.h"
+#include "base/input_file.h"
 #include "base/output_file.h"
 #include "base/sound_file.h"
 #include "cli/command_line.h"
+#include "commands/info/scene_survey.h"
 #include "commands/info/survey_text.h"
+#include "formats/json/parse.h"
+#include "formats/scene/read_scene.h"
 #include "formats/words/quality_words.h"
 #include "instrument/program_presets.h"
 
@@ -49,13 +54,34 @@ MaybeError list_presets(bool json) {
 }
 
 struct InfoOptions {
-    std::string preset;
+    std::string preset;  ///< or a scene
+    std::string schema;
     std::optional<Quality> quality;
     double rate_hz = 48000;
     bool json = false;
 };
 
+/// A file says itself what it is; names of built-in scenes have a slash, those of presets none.
+bool is_scene(const std::string& argument) {
+    if (argument == "-") return true;
+    if (!path_exists(argument)) return find_builtin("scenes", argument) != nullptr;
+    const auto text = read_file(argument, json::limits::file_bytes);
+    return text && text.value().find("\"jawari.scene/") != std::string::npos;
+}
+
+MaybeError show_scene(const InfoOptions& options) {
+    auto scene = load_scene(options.preset);
+    if (!scene) return scene.error();
+    const auto survey = survey_scene(std::move(scene.value()));
+    if (!survey) return survey.error();
+    return print(options.json ? survey_json(survey.value()) : survey_text(survey.value()));
+}
+
 MaybeError show_info(const InfoOptions& options) {
+    if (!options.schema.empty()) return print(std::string(find_builtin("schemas", options.schema)->text));
+    if (options.preset.empty())
+        return usage_error("PRESET or SCENE", "missing", "a file, a name, or --schema");
+    if (is_scene(options.preset)) return show_scene(options);
     InstrumentSettings settings;
     settings.output_rate_hz = options.rate_hz;
     settings.quality = options.quality.value_or(Quality::Live);
@@ -84,9 +110,22 @@ void add_presets_command(CLI::App& app, Command& command) {
 
 void add_info_command(CLI::App& app, Command& command) {
     CLI::App* info_app = app.add_subcommand(
-        "info", "Describes an instrument: strings, frets, modes, articulations, cost, parameters");
+        "info",
+        "Describes an instrument (strings, frets, modes, articulations, cost, parameters) or a scene");
     const auto options = std::make_shared<InfoOptions>();
-    info_app->add_option("preset", options->preset, "Preset file or name")->required()->type_name("PRESET");
+    info_app
+        ->add_option("preset", options->preset,
+                     "Preset or scene: file or name; - for a scene on standard input")
+        ->type_name("PRESET|SCENE");
+    info_app
+        ->add_option("--schema", options->schema, "Prints the JSON schema of a kind of file: scene, preset")
+        ->type_name("KIND")
+        ->check(CLI::Validator(
+            [](const std::string& kind) {
+                return find_builtin("schemas", kind) != nullptr ? std::string()
+                                                                : refusal(kind, "scene, preset");
+            },
+            ""));
     info_app->add_flag("--json", options->json, "As JSON");
     add_choice(*info_app, "--quality", options->quality, qualities, "Quality, default live");
     info_app->add_option("--rate", options->rate_hz, "Output rate that it is compiled for, default 48000")

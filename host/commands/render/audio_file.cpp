@@ -23,6 +23,18 @@ SampleEncoding encoding(SampleFormat format, SoundContainer container) {
     return {SF_FORMAT_FLOAT, 4, container};
 }
 
+/// One step of 16-bit samples, as libsndfile scales them.
+constexpr double step_16_bit = 1.0 / 32767;
+
+/// Noise of triangular density, two steps wide: rounding then leaves an error that does not depend on the
+/// sound (Lipshitz, Wannamaker, Vanderkooy, J. Audio Eng. Soc. 40 (1992) 355).
+double triangular_noise(std::mt19937& random) {
+    constexpr double range = 4294967296.0;
+    const double first = static_cast<double>(random()) / range;
+    const double second = static_cast<double>(random()) / range;
+    return (first - second) * step_16_bit;
+}
+
 }  // namespace
 
 Outcome<AudioFile> AudioFile::create(const std::string& path, std::size_t channels,
@@ -41,8 +53,10 @@ MaybeError AudioFile::write(std::span<const std::span<const double>> channels) {
     interleaved_.clear();
     for (std::size_t n = 0; n < frames; ++n) {
         for (const auto& channel : channels) {
-            const double sample = channel[n];
+            double sample = channel[n];
             if (std::abs(sample) > 1) clipped_ += 1;
+            // Digital silence is exact without noise.
+            if (format_ == SampleFormat::Pcm16 && sample != 0) sample += triangular_noise(dither_);
             interleaved_.push_back(format_ == SampleFormat::Float ? sample : std::clamp(sample, -1.0, 1.0));
         }
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <random>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,6 +38,7 @@ class AudioFile {
     SampleFormat format_;
     std::uint64_t clipped_ = 0;
     std::vector<double> interleaved_;
+    std::mt19937 dither_;  ///< always from the same seed: the same command gives the same bytes
 };
 
 }  // namespace jawari::host

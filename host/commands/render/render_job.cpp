@@ -19,6 +19,7 @@
 #include "commands/render/humanise.h"
 #include "commands/render/note_offs.h"
 #include "commands/render/render_score.h"
+#include "commands/render/score_notices.h"
 #include "commands/render/stem_files.h"
 #include "formats/midi_file/midi_file.h"
 #include "plot/audio_plot.h"
@@ -202,28 +203,11 @@ Outcome<std::vector<SharedInstrument>> load_instruments(const Score& score, Inst
 
 void add_notices(const Piece& piece, const Ensemble& ensemble, const RenderContext& context,
                  RenderedJob& result) {
-    const Score& score = piece.score;
     const std::string notice =
         context.options.midi.size() == 1 ? "notice: " : "notice: " + printable(input_name(piece.midi)) + ": ";
-    for (const EnsemblePart& part : ensemble.parts) {
-        const InstrumentDescription& instrument = part.instrument->preset.instrument;
-        if (instrument.law == ImpactLaw::Signorini && instrument.frets.restitution > 0)
-            result.messages.push_back(notice + printable(part.instrument->preset.file) +
-                                      ": the law signorini ignores the restitution of the frets");
-    }
-    if (score.cut_notes > 0)
-        result.messages.push_back(notice + formatted("%llu notes began before --start and are not played",
-                                                     static_cast<unsigned long long>(score.cut_notes)));
-    if (score.silent_notes > 0)
-        result.messages.push_back(notice +
-                                  formatted("%llu notes are silent: drums, or programs without strings",
-                                            static_cast<unsigned long long>(score.silent_notes)));
-    for (const IgnoredKind& kind : score.ignored)
-        result.messages.push_back(
-            notice + formatted("%llu messages do nothing: ", static_cast<unsigned long long>(kind.count)) +
-            printable(kind.what));
-    if (score.program_changes > 0 && !context.rules.choose)
-        result.messages.push_back(notice + "program changes do nothing; --preset auto follows them");
+    for (const std::string& line :
+         score_notices(piece.score, ensemble, static_cast<bool>(context.rules.choose)))
+        result.messages.push_back(notice + line);
 }
 
 void add_contact_messages(const Piece& piece, RenderedJob& result) {

@@ -68,6 +68,13 @@ Json ignored_json(const RenderStats& stats) {
     return kinds;
 }
 
+Json lent_json(const RenderStats& stats) {
+    Json kinds = Json::array();
+    for (const LentNotes& lent : stats.lent_notes)
+        kinds.push_back({{"preset", lent.preset}, {"player", lent.player}, {"notes", lent.count}});
+    return kinds;
+}
+
 Json repairs_json(const RenderStats& stats) {
     Json repairs = Json::array();
     for (const MidiRepair& repair : stats.repairs)
@@ -103,6 +110,7 @@ void describe_job(const std::string& midi, const RenderOptions& options, const S
     stats.score_s = static_cast<double>(score.end_frame) / options.rate_hz;
     stats.silent_notes = score.silent_notes;
     stats.ignored = score.ignored;
+    stats.lent_notes = score.lent_notes;
     for (const EnsemblePart& part : ensemble.parts)
         stats.parts.push_back(
             {part.score->preset, part.score->port + 1, part.score->channel + 1,
@@ -156,6 +164,7 @@ std::string stats_json(const RenderStats& stats) {
                     {"nonfinite_resets", contacts.nonfinite_resets},
                     {"lcp_residual_max_m", contacts.worst_residual_m},
                     {"worst_penetration_m", contacts.worst_penetration_m},
+                    {"lent_notes", lent_json(stats)},
                     {"ignored", ignored_json(stats)},
                     {"repairs", repairs_json(stats)},
                     {"parts", parts_json(stats)}};

@@ -27,6 +27,7 @@ struct RenderStats {
     std::vector<PartStats> parts;
     std::uint64_t silent_notes = 0;
     std::vector<IgnoredKind> ignored;
+    std::vector<LentNotes> lent_notes;
     std::vector<MidiRepair> repairs;
     ScoreStatistics score;
     double cpu_compile_s = 0;

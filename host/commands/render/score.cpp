@@ -131,6 +131,19 @@ class ScoreMaker {
         return rules_.choose && port.interpreter.channels[channel].unpitched;
     }
 
+    std::string player_of(const std::string& preset, const Routed& routed) {
+        if (!rules_.choose_for_key) return preset;
+        std::string player = rules_.choose_for_key(preset, routed.timed.event.key);
+        if (player == preset) return player;
+        auto& lent = score_.lent_notes;
+        auto found = std::find_if(lent.begin(), lent.end(), [&](const LentNotes& each) {
+            return each.preset == preset && each.player == player;
+        });
+        if (found == lent.end()) found = lent.insert(found, LentNotes{preset, player, 0});
+        found->count += 1;
+        return player;
+    }
+
     std::size_t part_of(const Port& port, const Routed& routed) {
         const int channel = routed.timed.event.channel;
         if ((rules_.muted >> static_cast<unsigned>(channel) & 1U) != 0) {
@@ -142,7 +155,7 @@ class ScoreMaker {
             score_.silent_notes += 1;
             return silent;
         }
-        const std::string& preset = *port.presets[static_cast<std::size_t>(leader)];
+        const std::string preset = player_of(*port.presets[static_cast<std::size_t>(leader)], routed);
         auto found = std::find_if(score_.parts.begin(), score_.parts.end(), [&](const ScorePart& part) {
             return part.port == routed.port && part.channel == leader && part.preset == preset;
         });

@@ -37,6 +37,12 @@ struct IgnoredKind {
     std::uint64_t count = 0;
 };
 
+/// Notes that a preset has no string for, and who plays them.
+struct LentNotes {
+    std::string preset, player;
+    std::uint64_t count = 0;
+};
+
 /// What part of a piece is played [frames]. Messages before it change what they change without being heard;
 /// notes that begin before it are left out.
 struct Excerpt {
@@ -53,16 +59,21 @@ struct Score {
     std::uint64_t muted_notes = 0;     ///< left out as asked for
     std::uint64_t cut_notes = 0;       ///< down where the excerpt begins, and not played
     std::uint64_t program_changes = 0;
+    std::vector<LentNotes> lent_notes;
 };
 
 /// Preset of a program; nothing: its notes are silent.
 using ProgramChoice = std::function<std::optional<std::string>(int bank, int program)>;
+
+/// Preset that plays a key of a preset: itself, or another one if it has no such string.
+using KeyChoice = std::function<std::string(const std::string& preset, int key)>;
 
 struct ScoreRules {
     InterpreterSettings interpreter;
     /// Each channel (MPE zone, guitar) is a part for itself, for each preset that its programs choose. Empty:
     /// all channels of a port play one part, program changes do nothing.
     ProgramChoice choose;
+    KeyChoice choose_for_key;                                ///< beside `choose`; empty: always itself
     std::string preset;                                      ///< of the one part
     double tempo = 1;                                        ///< times as fast as written
     unsigned muted = 0;                                      ///< bit c: notes of channel c are left out

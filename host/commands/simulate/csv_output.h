@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/output_file.h"
-#include "commands/simulate/probe_names.h"
 #include "commands/simulate/row_renderer.h"
+#include "formats/scene/probe_names.h"
 
 namespace jawari::host {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace jawari::host::hdf5 {
 
@@ -34,6 +35,14 @@ int rank(const Extent& extent) {
     return extent.columns ? 2 : 1;
 }
 
+/// netCDF lists what a group holds in the order in which it was made.
+Handle in_order_of_creation(hid_t of) {
+    Handle properties(H5Pcreate(of), H5Pclose);
+    if (H5Pset_link_creation_order(properties.id(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED) < 0)
+        return {};
+    return properties;
+}
+
 bool empty(const Extent& extent) {
     return extent.rows == 0 || extent.columns == std::size_t{0};
 }
@@ -46,11 +55,13 @@ void quiet() {
 }
 
 Handle create_file(const std::string& path) {
-    return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose};
+    const Handle properties = in_order_of_creation(H5P_FILE_CREATE);
+    return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties.id(), H5P_DEFAULT), H5Fclose};
 }
 
 Handle create_group(hid_t parent, const std::string& name) {
-    return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose};
+    const Handle properties = in_order_of_creation(H5P_GROUP_CREATE);
+    return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, properties.id(), H5P_DEFAULT), H5Gclose};
 }
 
 Handle create_table(hid_t parent, const std::string& name, const Extent& extent, bool compressed) {
@@ -81,29 +92,40 @@ bool write_rows(const Handle& table, std::uint64_t first, const Extent& block, c
            H5Dwrite(table.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT, values) >= 0;
 }
 
-bool write_vector(hid_t parent, const std::string& name, const std::vector<double>& values) {
+Handle write_vector(hid_t parent, const std::string& name, const std::vector<double>& values) {
     const hsize_t size = values.size();
     const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-    const Handle data(
+    Handle data(
         H5Dcreate2(parent, name.c_str(), H5T_IEEE_F64LE, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
         H5Dclose);
-    if (!data.ok()) return false;
-    return values.empty() ||
-           H5Dwrite(data.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
+    if (!data.ok() || values.empty()) return data;
+    const bool written =
+        H5Dwrite(data.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
+    return written ? std::move(data) : Handle();
 }
 
-bool write_strings(hid_t parent, const std::string& name, const std::vector<std::string>& values) {
+Handle write_strings(hid_t parent, const std::string& name, const std::vector<std::string>& values) {
     const Handle type = text_type();
     const hsize_t size = values.size();
     const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-    const Handle data(
+    Handle data(
         H5Dcreate2(parent, name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
         H5Dclose);
-    if (!data.ok()) return false;
+    if (!data.ok() || values.empty()) return data;
     std::vector<const char*> pointers;
     for (const std::string& value : values) pointers.push_back(value.c_str());
-    return values.empty() ||
-           H5Dwrite(data.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) >= 0;
+    const bool written = H5Dwrite(data.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) >= 0;
+    return written ? std::move(data) : Handle();
+}
+
+bool make_scale(const Handle& dataset, const std::string& name) {
+    return H5DSset_scale(dataset.id(), name.c_str()) >= 0;
+}
+
+bool attach_scales(const Handle& dataset, const std::vector<const Handle*>& scales) {
+    for (std::size_t d = 0; d < scales.size(); ++d)
+        if (H5DSattach_scale(dataset.id(), scales[d]->id(), static_cast<unsigned>(d)) < 0) return false;
+    return true;
 }
 
 bool set_attribute(hid_t object, const std::string& name, const std::string& value) {

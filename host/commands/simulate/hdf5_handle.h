@@ -3,6 +3,7 @@
 #pragma once
 
 #include <hdf5.h>
+#include <hdf5_hl.h>
 
 #include <cstdint>
 #include <optional>
@@ -61,8 +62,13 @@ Handle create_table(hid_t parent, const std::string& name, const Extent& extent,
 /// `values`: row-major, block.rows x block.columns, from row `first` on.
 bool write_rows(const Handle& table, std::uint64_t first, const Extent& block, const double* values);
 
-bool write_vector(hid_t parent, const std::string& name, const std::vector<double>& values);
-bool write_strings(hid_t parent, const std::string& name, const std::vector<std::string>& values);
+Handle write_vector(hid_t parent, const std::string& name, const std::vector<double>& values);
+Handle write_strings(hid_t parent, const std::string& name, const std::vector<std::string>& values);
+
+/// A dimension of netCDF and xarray: the dataset gives it its name, its length and its coordinates.
+bool make_scale(const Handle& dataset, const std::string& name);
+/// One scale for each dimension of the dataset, in order.
+bool attach_scales(const Handle& dataset, const std::vector<const Handle*>& scales);
 
 bool set_attribute(hid_t object, const std::string& name, const std::string& value);
 bool set_attribute(hid_t object, const std::string& name, double value);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cerrno>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -17,9 +18,32 @@ using hdf5::set_attribute;
 
 namespace {
 
-/// The datasets of one string that grow with the rows; closed before their group.
+/// Unit and dimensions of a dataset, as xarray and netCDF read them.
+bool describe(const Handle& dataset, const std::string& units, const std::vector<const Handle*>& scales) {
+    return dataset.ok() && set_attribute(dataset.id(), "units", units) &&
+           hdf5::attach_scales(dataset, scales);
+}
+
+bool write_described(hid_t parent, const std::string& name, const std::vector<double>& values,
+                     const std::string& units, const Handle& scale) {
+    return describe(hdf5::write_vector(parent, name, values), units, {&scale});
+}
+
+/// The numbers `first`, `first` + 1, ... of a dimension.
+Handle write_scale(hid_t parent, const std::string& name, std::size_t count, double first) {
+    std::vector<double> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), first);
+    Handle scale = hdf5::write_vector(parent, name, numbers);
+    if (!scale.ok() || !set_attribute(scale.id(), "units", std::string("1")) ||
+        !hdf5::make_scale(scale, name))
+        return {};
+    return scale;
+}
+
+/// The datasets of one string that grow with the rows, and its dimensions; closed before their group.
 struct StringTables {
     Handle group;
+    Handle contact_scale, mode_scale;
     std::size_t contacts = 0;
     bool metered = false;  ///< each step: the last three exist
     Handle gap, impulse, energy, dissipated, contact_work, player_work;
@@ -37,7 +61,8 @@ bool write_settings(hid_t file, const Scene& scene, double sound_s) {
            set_attribute(file, "theta", settings.theta) && set_attribute(file, "law", word(settings.law));
 }
 
-bool write_contacts(hid_t group, const StringDescription& string, const StringModel& model) {
+bool write_contacts(hid_t group, const StringDescription& string, const StringModel& model,
+                    const Handle& contact) {
     std::vector<double> position, height, restitution, takes_part;
     std::vector<std::string> side;
     for (std::size_t c = 0; c < string.contacts.size(); ++c) {
@@ -47,11 +72,11 @@ bool write_contacts(hid_t group, const StringDescription& string, const StringMo
         side.push_back(word(string.contacts[c].side));
         takes_part.push_back(model.shape->contact_of_description[c] >= 0 ? 1 : 0);
     }
-    return hdf5::write_vector(group, "contact_position_m", position) &&
-           hdf5::write_vector(group, "contact_height_m", height) &&
-           hdf5::write_vector(group, "contact_restitution", restitution) &&
-           hdf5::write_strings(group, "contact_side", side) &&
-           hdf5::write_vector(group, "contact_takes_part", takes_part);
+    return write_described(group, "contact_position_m", position, "m", contact) &&
+           write_described(group, "contact_height_m", height, "m", contact) &&
+           write_described(group, "contact_restitution", restitution, "1", contact) &&
+           hdf5::attach_scales(hdf5::write_strings(group, "contact_side", side), {&contact}) &&
+           write_described(group, "contact_takes_part", takes_part, "1", contact);
 }
 
 std::vector<double> first_modes(const AlignedVector<double>& values, std::size_t count, double factor = 1) {
@@ -60,14 +85,15 @@ std::vector<double> first_modes(const AlignedVector<double>& values, std::size_t
     return result;
 }
 
-bool write_modes(hid_t group, const StringModel& model) {
+bool write_modes(hid_t group, const StringModel& model, const Handle& mode) {
     constexpr double per_turn = 1 / 6.283185307179586476925286766559;
-    return hdf5::write_vector(group, "frequency_hz",
-                              first_modes(model.tuning.omega, model.shape->mode_count, per_turn)) &&
-           hdf5::write_vector(group, "decay_per_s", first_modes(model.shape->sigma, model.shape->mode_count));
+    const std::size_t modes = model.shape->mode_count;
+    return write_described(group, "frequency_hz", first_modes(model.tuning.omega, modes, per_turn), "Hz",
+                           mode) &&
+           write_described(group, "decay_per_s", first_modes(model.shape->sigma, modes), "1/s", mode);
 }
 
-bool create_tables(std::uint64_t rows, StringTables& tables) {
+bool create_tables(std::uint64_t rows, const Handle& time, StringTables& tables) {
     const hid_t group = tables.group.id();
     const Extent per_contact{rows, tables.contacts};
     const Extent per_row{rows, {}};
@@ -75,26 +101,34 @@ bool create_tables(std::uint64_t rows, StringTables& tables) {
     tables.gap = hdf5::create_table(group, "gap_m", per_contact, false);
     tables.impulse = hdf5::create_table(group, "impulse_Ns", per_contact, true);
     tables.energy = hdf5::create_table(group, "energy_J", per_row, false);
-    const bool created = tables.gap.ok() && tables.impulse.ok() && tables.energy.ok();
+    const Handle& contact = tables.contact_scale;
+    const bool created = describe(tables.gap, "m", {&time, &contact}) &&
+                         describe(tables.impulse, "N s", {&time, &contact}) &&
+                         describe(tables.energy, "J", {&time});
     if (!tables.metered) return created;
     tables.dissipated = hdf5::create_table(group, "dissipated_J", per_row, false);
     tables.contact_work = hdf5::create_table(group, "contact_work_J", per_row, false);
     tables.player_work = hdf5::create_table(group, "player_work_J", per_row, false);
-    return created && tables.dissipated.ok() && tables.contact_work.ok() && tables.player_work.ok();
+    return created && describe(tables.dissipated, "J", {&time}) &&
+           describe(tables.contact_work, "J", {&time}) && describe(tables.player_work, "J", {&time});
 }
 
 bool create_string(hid_t parent, std::size_t index, const StringDescription& string, const StringModel& model,
-                   std::uint64_t rows, Metering metering, StringTables& tables) {
+                   std::uint64_t rows, const Handle& time, Metering metering, StringTables& tables) {
     tables.group = hdf5::create_group(parent, std::to_string(index));
     const hid_t group = tables.group.id();
     tables.contacts = string.contacts.size();
     tables.metered = metering == Metering::Step;
-    return tables.group.ok() && create_tables(rows, tables) && set_attribute(group, "name", string.name) &&
+    tables.contact_scale = write_scale(group, "contact", tables.contacts, 0);
+    tables.mode_scale = write_scale(group, "mode", model.shape->mode_count, 1);
+    return tables.group.ok() && tables.contact_scale.ok() && tables.mode_scale.ok() &&
+           create_tables(rows, time, tables) && set_attribute(group, "name", string.name) &&
            set_attribute(group, "length_m", string.length_m) &&
            set_attribute(group, "linear_density_kg_per_m", string.linear_density_kg_per_m) &&
            set_attribute(group, "start", word(string.initial.start)) &&
            set_attribute(group, "modes", std::uint64_t{model.shape->mode_count}) &&
-           write_contacts(group, string, model) && write_modes(group, model);
+           write_contacts(group, string, model, tables.contact_scale) &&
+           write_modes(group, model, tables.mode_scale);
 }
 
 bool write_string_rows(const StringTables& tables, const StringRows& rows, std::uint64_t first,
@@ -125,13 +159,16 @@ bool write_counters(hid_t group, const StringStats& stats) {
            set_attribute(group, "worst_penetration_m", counters.worst_penetration_m);
 }
 
-bool write_probe_labels(hid_t file, const std::vector<ProbeLabel>& probes) {
+/// The names are the dimension of the probes.
+bool write_probe_labels(hid_t file, const std::vector<ProbeLabel>& probes, Handle& name_scale) {
     std::vector<std::string> names, units;
     for (const ProbeLabel& probe : probes) {
         names.push_back(probe.name);
-        units.push_back(unit(probe.quantity));
+        units.push_back(probe.unit);
     }
-    return hdf5::write_strings(file, "probe_name", names) && hdf5::write_strings(file, "probe_unit", units);
+    name_scale = hdf5::write_strings(file, "probe_name", names);
+    return name_scale.ok() && hdf5::make_scale(name_scale, "probe_name") &&
+           hdf5::attach_scales(hdf5::write_strings(file, "probe_unit", units), {&name_scale});
 }
 
 }  // namespace
@@ -140,10 +177,12 @@ bool write_probe_labels(hid_t file, const std::vector<ProbeLabel>& probes) {
 struct Hdf5Output::Tables {
     Handle file;
     Handle group;
-    Handle time, probes;
+    Handle time, probes, probe_name;
     std::size_t probe_count = 0;
     std::vector<StringTables> strings;
     std::vector<double> scratch;
+    bool begun = false;
+    std::uint64_t first_row = 0;  ///< of the recording, which a resumed one begins later
 
     bool create(const std::string& path, const Scene& scene, const SceneModel& model,
                 const std::vector<ProbeLabel>& labels, std::uint64_t rows, Metering metering) {
@@ -156,11 +195,15 @@ struct Hdf5Output::Tables {
         time = hdf5::create_table(file.id(), "time_s", {rows, {}}, false);
         probes = hdf5::create_table(file.id(), "probes", {rows, probe_count}, false);
         group = hdf5::create_group(file.id(), "strings");
-        if (!time.ok() || !probes.ok() || !group.ok() || !write_probe_labels(file.id(), labels)) return false;
+        if (!time.ok() || !set_attribute(time.id(), "units", std::string("s")) ||
+            !hdf5::make_scale(time, "time_s") || !probes.ok() || !group.ok() ||
+            !write_probe_labels(file.id(), labels, probe_name) ||
+            !hdf5::attach_scales(probes, {&time, &probe_name}))
+            return false;
         strings.resize(model.strings.size());
         for (std::size_t s = 0; s < strings.size(); ++s)
-            if (!create_string(group.id(), s, scene.description.strings[s], model.strings[s], rows, metering,
-                               strings[s]))
+            if (!create_string(group.id(), s, scene.description.strings[s], model.strings[s], rows, time,
+                               metering, strings[s]))
                 return false;
         return true;
     }
@@ -168,10 +211,11 @@ struct Hdf5Output::Tables {
     bool close() {
         bool closed = true;
         for (StringTables& string : strings)
-            for (Handle* handle : {&string.gap, &string.impulse, &string.energy, &string.dissipated,
-                                   &string.contact_work, &string.player_work, &string.group})
+            for (Handle* handle :
+                 {&string.gap, &string.impulse, &string.energy, &string.dissipated, &string.contact_work,
+                  &string.player_work, &string.contact_scale, &string.mode_scale, &string.group})
                 closed = handle->close() && closed;
-        for (Handle* handle : {&time, &probes, &group}) closed = handle->close() && closed;
+        for (Handle* handle : {&time, &probes, &probe_name, &group}) closed = handle->close() && closed;
         const bool flushed = H5Fflush(file.id(), H5F_SCOPE_GLOBAL) >= 0;
         return file.close() && flushed && closed;
     }
@@ -201,19 +245,21 @@ Outcome<Hdf5Output> Hdf5Output::create(OutputFile file, const Scene& scene, cons
 
 MaybeError Hdf5Output::write(const RowBlock& block) {
     errno = 0;
+    if (!tables_->begun) tables_->first_row = block.first;
+    tables_->begun = true;
+    const std::uint64_t row = block.first - tables_->first_row;
     auto& scratch = tables_->scratch;
     scratch.clear();
     for (std::size_t i = 0; i < block.count; ++i)
         scratch.push_back(static_cast<double>(block.first + i) / output_rate_hz_);
-    if (!hdf5::write_rows(tables_->time, block.first, {block.count, {}}, scratch.data())) return failure();
+    if (!hdf5::write_rows(tables_->time, row, {block.count, {}}, scratch.data())) return failure();
     scratch.clear();
     for (std::size_t i = 0; i < block.count; ++i)
         for (const auto& probe : block.probes) scratch.push_back(probe[i]);
-    if (!hdf5::write_rows(tables_->probes, block.first, {block.count, tables_->probe_count}, scratch.data()))
+    if (!hdf5::write_rows(tables_->probes, row, {block.count, tables_->probe_count}, scratch.data()))
         return failure();
     for (std::size_t s = 0; s < block.strings.size(); ++s)
-        if (!write_string_rows(tables_->strings[s], block.strings[s], block.first, block.count))
-            return failure();
+        if (!write_string_rows(tables_->strings[s], block.strings[s], row, block.count)) return failure();
     return std::nullopt;
 }
 
@@ -222,12 +268,14 @@ MaybeError Hdf5Output::write_final(const SceneModel& model, const SceneState& st
     errno = 0;
     for (std::size_t s = 0; s < model.strings.size(); ++s) {
         const hid_t group = tables_->strings[s].group.id();
+        const Handle& mode = tables_->strings[s].mode_scale;
         const std::size_t modes = model.strings[s].shape->mode_count;
-        const bool written = hdf5::write_vector(group, "final_modal_displacement",
-                                                first_modes(state.strings[s].displacement, modes)) &&
-                             hdf5::write_vector(group, "final_modal_velocity",
-                                                first_modes(state.strings[s].velocity, modes)) &&
-                             write_counters(group, stats.strings[s]);
+        const bool written =
+            write_described(group, "final_modal_displacement",
+                            first_modes(state.strings[s].displacement, modes), "m^(3/2)", mode) &&
+            write_described(group, "final_modal_velocity", first_modes(state.strings[s].velocity, modes),
+                            "m^(3/2)/s", mode) &&
+            write_counters(group, stats.strings[s]);
         if (!written) return failure();
     }
     return std::nullopt;

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/output_file.h"
-#include "commands/simulate/probe_names.h"
 #include "commands/simulate/row_renderer.h"
 #include "commands/simulate/stats.h"
+#include "formats/scene/probe_names.h"
 #include "formats/scene/scene.h"
 #include "jawari/detail/string_model.h"
 

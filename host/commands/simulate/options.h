@@ -32,6 +32,8 @@ struct SimulateOptions {
     std::string out;           ///< empty: none; `-`: CSV on standard output
     std::string stats;         ///< empty: none; `-`: standard output
     std::string plot;          ///< empty: none
+    std::string save_state;    ///< empty: none
+    std::string resume;        ///< a saved state; empty: from t = 0
     bool overwrite = false;    ///< replaces files of other kinds too
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/text.h"
 #include "formats/scene/words.h"
 #include "jawari/scene/modes.h"
 
@@ -20,9 +21,18 @@ std::uint64_t divide_up(std::uint64_t a, std::uint64_t b) {
     return (a + b - 1) / b;
 }
 
+/// Of the lowest mode that swings.
+double lowest_omega(const StringModel& string) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < string.shape->mode_count; ++k) {
+        if (string.tuning.omega[k] > 0) lowest = std::min(lowest, string.tuning.omega[k]);
+    }
+    return lowest;
+}
+
 std::vector<std::uint64_t> choose_snapshot_rows(const StringModel& string, double output_rate_hz,
                                                 std::uint64_t last_row) {
-    const double period_rows = 6.283185307179586 / string.tuning.omega[0] * output_rate_hz;
+    const double period_rows = 6.283185307179586 / lowest_omega(string) * output_rate_hz;
     const double span = std::min(period_rows, static_cast<double>(last_row));
     std::vector<std::uint64_t> rows;
     for (std::size_t i = 0; i < snapshots; ++i)
@@ -44,20 +54,37 @@ std::vector<double> shape_of(const StringModel& string, const StringState& state
     std::vector<double> shape;
     for (const double x : grid) {
         double sum = 0;
-        for (std::size_t k = 0; k < string.shape->mode_count; ++k)
+        const std::size_t modes = string.shape->mode_count - string.shape->hammer_count;
+        for (std::size_t k = 0; k < modes; ++k)
             sum += mode_shape(k + 1, x, string.shape->length_m) * state.displacement[k];
         shape.push_back(sum);
     }
     return shape;
 }
 
+/// Where the picture puts a contact of a system that is no string: the place along a bar, else its number.
+double place_of(const StringDescription& string, std::size_t contact) {
+    const ContactDescription& description = string.contacts[contact];
+    const std::vector<std::string>& names = string.shapes->names;
+    if (description.point >= names.size()) return static_cast<double>(contact);
+    return parse_number(names[description.point]).value_or(static_cast<double>(contact));
+}
+
 StringRecording empty_recording(const StringDescription& string) {
     StringRecording recording;
     recording.name = string.name;
-    recording.length_m = string.length_m;
-    recording.grid_m = grid_of(string.length_m);
-    for (const ContactDescription& contact : string.contacts)
-        recording.obstacles.push_back({contact.position_m, contact.height_m, contact.side});
+    recording.is_string = !string.shapes;
+    if (recording.is_string) {
+        recording.length_m = string.length_m;
+        recording.grid_m = grid_of(string.length_m);
+    }
+    for (std::size_t c = 0; c < string.contacts.size(); ++c) {
+        const ContactDescription& contact = string.contacts[c];
+        const double place = recording.is_string ? contact.position_m : place_of(string, c);
+        recording.obstacles.push_back({place, contact.height_m, contact.side});
+        recording.length_m = std::max(recording.length_m, place);
+    }
+    if (recording.length_m == 0) recording.length_m = 1;  // an axis has a length
     return recording;
 }
 
@@ -81,12 +108,13 @@ Recorder::Recorder(const Scene& scene, const SceneModel& model, const std::vecto
     recording_.interval_s = static_cast<double>(rows_per_event_) / model.output_rate_hz;
     for (std::size_t s = 0; s < model.strings.size(); ++s) {
         recording_.strings.push_back(empty_recording(scene.description.strings[s]));
-        snapshot_rows_.push_back(choose_snapshot_rows(model.strings[s], model.output_rate_hz, last_row));
+        snapshot_rows_.emplace_back();
+        if (recording_.strings.back().is_string)
+            snapshot_rows_.back() = choose_snapshot_rows(model.strings[s], model.output_rate_hz, last_row);
         impulses_.emplace_back(scene.description.strings[s].contacts.size(), 0.0);
     }
     for (const ProbeLabel& probe : probes)
-        recording_.strings[probe.string].probes.push_back(
-            {probe.name, unit(probe.quantity), probe.quantity, {}});
+        recording_.strings[probe.string].probes.push_back({probe.name, probe.unit, probe.quantity, {}});
     lowest_.assign(probes.size(), std::numeric_limits<double>::infinity());
     highest_.assign(probes.size(), -std::numeric_limits<double>::infinity());
 }
@@ -107,6 +135,7 @@ void Recorder::add(const RowBlock& block) {
 }
 
 void Recorder::add_probes(const RowBlock& block) {
+    if (recording_.times_s.empty()) bucket_first_ = std::max(bucket_first_, block.first);
     std::vector<std::vector<double>*> values;
     for (StringRecording& string : recording_.strings)
         for (ProbeSignal& probe : string.probes) values.push_back(&probe.values);

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "commands/simulate/probe_names.h"
 #include "commands/simulate/row_renderer.h"
+#include "formats/scene/probe_names.h"
 #include "formats/scene/scene.h"
 #include "jawari/detail/string_model.h"
 #include "plot/recording.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <variant>
 
@@ -54,7 +55,8 @@ std::optional<Finding> judge_penetration(const SceneDescription& settings, const
 
 /// Laws of positions let it enter nothing, so that the error has to be estimated.
 std::optional<Finding> judge_estimate(const SceneDescription& settings, const StringResolution& string) {
-    if (string.impulses == 0 || !forbids_penetration(settings)) return std::nullopt;
+    if (string.impulses == 0 || !forbids_penetration(settings) || string.fundamental_hz == 0)
+        return std::nullopt;
     const double error = contact_error(string.fundamental_hz, settings.contact_rate_hz);
     const bool many = string.highest_hz > many_modes_above * settings.contact_rate_hz / 2;
     if (!(error > bad_error) || !many) return std::nullopt;
@@ -82,27 +84,52 @@ double allowed_rate_hz(const SceneDescription& settings, double rate_hz) {
 
 }  // namespace
 
+namespace {
+
+/// The largest square of a mode's shape anywhere it can be seen.
+double largest_square(const StringDescription& string, std::size_t k) {
+    if (!string.shapes) return 2 / string.length_m;
+    double largest = 0;
+    for (const std::vector<double>& point : string.shapes->points)
+        largest = std::max(largest, std::abs(point[k]));
+    return largest * largest;
+}
+
+/// Whether the discrete energy counts more than the modes of the description.
+bool stores_elsewhere(const StringDescription& string) {
+    return !string.hammers.empty() || !string.springs.empty() ||
+           std::any_of(string.contacts.begin(), string.contacts.end(),
+                       [](const ContactDescription& contact) { return contact.compliance.has_value(); });
+}
+
+}  // namespace
+
 StringResolution describe_resolution(const StringDescription& string, const StringModel& model,
                                      const StringState& start) {
     const Modes modes = modes_of(string);
     const auto* given = std::get_if<ModalState>(&string.initial.shape);
     double square = 0;
-    double energy_over_mass = 0;
+    double energy_J = 0;
     double fastest_decay_per_s = 0;
+    double lowest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < modes.omega.size(); ++k) {
-        const double q = start.displacement[k];
+        const double omega = modes.omega[k];
+        const double q = model.shape->coordinate_unit[k] * start.displacement[k];
         const double v = given != nullptr && !given->velocity.empty() ? given->velocity[k] : 0.0;
-        square += q * q + v / modes.omega[k] * (v / modes.omega[k]);
-        energy_over_mass += (v * v + modes.omega[k] * q * (modes.omega[k] * q)) / 2;
+        const double mass = string.shapes ? string.shapes->modal_mass_kg[k] : string.linear_density_kg_per_m;
+        const double swing = omega > 0 ? v / omega : 0;
+        square += largest_square(string, k) * (q * q + swing * swing);
+        energy_J += mass * (v * v + omega * q * (omega * q)) / 2;
         if (q != 0 || v != 0) fastest_decay_per_s = std::max(fastest_decay_per_s, modes.sigma[k]);
+        if (omega > 0) lowest = std::min(lowest, omega);
     }
     StringResolution resolution;
     resolution.energy_J = energy(model, start);
-    resolution.true_energy_J = string.linear_density_kg_per_m * energy_over_mass;
+    resolution.true_energy_J = stores_elsewhere(string) ? resolution.energy_J : energy_J;
     resolution.fastest_decay_per_s = fastest_decay_per_s;
     resolution.name = model.shape->name;
-    resolution.motion_m = std::sqrt(2 / string.length_m * square);
-    resolution.fundamental_hz = modes.omega.front() / (2 * std::numbers::pi);
+    resolution.motion_m = std::sqrt(square);
+    resolution.fundamental_hz = std::isinf(lowest) ? 0 : lowest / (2 * std::numbers::pi);
     resolution.highest_hz =
         *std::max_element(modes.omega.begin(), modes.omega.end()) / (2 * std::numbers::pi);
     return resolution;

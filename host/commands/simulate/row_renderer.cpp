@@ -70,6 +70,11 @@ RowRenderer::RowRenderer(const SceneModel& model, std::uint64_t last_row, Meteri
     block_.probes.resize(model.probe_count);
 }
 
+void RowRenderer::go_on_from(SceneState state) {
+    state_ = std::move(state);
+    next_row_ = state_.frame;
+}
+
 const RowBlock& RowRenderer::next() {
     const NoDenormals guard;
     const std::uint64_t left = last_row_ - next_row_ + 1;

@@ -38,6 +38,9 @@ class RowRenderer {
     RowRenderer(const SceneModel& model, std::uint64_t last_row, Metering metering, const Skipping& skipping,
                 bool with_contacts, Observer observer = {});
 
+    /// Instead of t = 0: the row of the state comes first. Before next(); `state` is one of the model.
+    void go_on_from(SceneState state);
+
     /// The next rows, 1 to 256 of them: few enough that it takes about a tenth of a second. Precondition:
     /// !finished().
     const RowBlock& next();

@@ -29,7 +29,7 @@ const std::map<std::string, ImpactLaw> laws{{"newton", ImpactLaw::Newton},
                                             {"paoli-schatzman", ImpactLaw::PaoliSchatzman}};
 
 std::string footer() {
-    return "SCENE is a JSON file (docs/formats/scene.md) or a built-in scene: " +
+    return "SCENE is a JSON file (docs/formats/scene.md), - for standard input, or a built-in scene: " +
            join(builtin_scene_names()) +
            ".\n\n"
            "Row n of an output is t = n/output rate, n = 0 to round(duration x output rate). Without --out, "
@@ -90,6 +90,13 @@ void add_files(CLI::App& app, SimulateOptions& options) {
         ->type_name("FILE.json")
         ->check(CLI::Validator(
             [](const std::string& path) { return path.empty() ? refusal(path, "a name") : ""; }, ""));
+    app.add_option("--save-state", options.save_state, "State at the end, from which --resume goes on")
+        ->type_name("FILE")
+        ->check(some_name());
+    app.add_option("--resume", options.resume,
+                   "Goes on from a saved state, with its time, to the end of the scene")
+        ->type_name("FILE")
+        ->check(some_name());
     app.add_option("--plot", options.plot, "Snapshots, probe signals and contactogram: FILE.svg or FILE.png")
         ->type_name("FILE")
         ->check(CLI::Validator(
@@ -142,7 +149,7 @@ void add_simulate_command(CLI::App& app, Command& command) {
     CLI::App* simulate_app =
         app.add_subcommand("simulate", "Simulates a scene: strings, obstacles and probes from a JSON file");
     const auto options = std::make_shared<SimulateOptions>();
-    simulate_app->add_option("SCENE", options->scene, "Scene file or built-in name")
+    simulate_app->add_option("SCENE", options->scene, "Scene file, built-in name, or -")
         ->required()
         ->type_name("");
     add_settings(*simulate_app, options->overrides);

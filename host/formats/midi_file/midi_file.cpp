@@ -1,6 +1,7 @@
 #include "formats/midi_file/midi_file.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,7 +17,17 @@ constexpr std::size_t header_bytes = 6;
 constexpr std::size_t most_tracks = 65535;
 
 /// Kinds of repairs outside tracks.
-enum Repair { WrappedWrongly, ShortHeader, WrongFormat, WrongCount, OddRate, LongChunk, NoChunk, Patterns };
+enum Repair {
+    WrappedWrongly,
+    ShortHeader,
+    WrongFormat,
+    WrongCount,
+    OddRate,
+    LongChunk,
+    ShortChunk,
+    NoChunk,
+    Patterns
+};
 
 struct Header {
     std::uint16_t format = 0;
@@ -47,12 +58,20 @@ Result<ByteReader> unwrap(std::span<const std::uint8_t> bytes) {
     return midi_failure(reader.offset(), -1, "an RMID file without a data chunk", "one data chunk");
 }
 
+bool is_packed(std::span<const std::uint8_t> bytes) {
+    return bytes.size() > 2 && bytes[0] == 0x1F && bytes[1] == 0x8B;
+}
+
+Failure packed_failure() {
+    return midi_failure(0, -1, "a file packed by gzip", "a MIDI file; gunzip unpacks it");
+}
+
 /// A wrapper that is broken, or of another kind (MacBinary, a mail, a cartridge): the file begins at MThd.
 Result<ByteReader> find_header(std::span<const std::uint8_t> bytes, const Failure& problem,
                                MidiNotes& notes) {
     static constexpr std::string_view tag = "MThd";
     const auto found = std::search(bytes.begin(), bytes.end(), tag.begin(), tag.end());
-    if (found == bytes.end()) return problem;
+    if (found == bytes.end()) return is_packed(bytes) ? packed_failure() : problem;
     const auto begin = static_cast<std::size_t>(found - bytes.begin());
     notes.repair(0, -1, WrappedWrongly, problem.value, problem.allowed,
                  std::to_string(begin) + " bytes before MThd are left out");
@@ -61,6 +80,7 @@ Result<ByteReader> find_header(std::span<const std::uint8_t> bytes, const Failur
 
 Result<ByteReader> find_file(std::span<const std::uint8_t> bytes, MidiNotes& notes) {
     auto inside = unwrap(bytes);
+    if (notes.strict() && is_packed(bytes)) return packed_failure();
     if (!inside) return notes.strict() ? inside : find_header(bytes, inside.failure(), notes);
     ByteReader reader = inside.value();
     if (notes.strict() || ByteReader(reader).take_tag("MThd")) return inside;
@@ -199,8 +219,40 @@ class ChunkReader {
         return reader_.left() >= 8;
     }
 
+    /// How long a track is whose length is wrong: it goes on to the next one, or the next one begins in it.
+    std::size_t track_length(std::size_t start, int track, std::size_t length) {
+        static constexpr std::array<std::uint8_t, 7> end_and_next{0xFF, 0x2F, 0x00, 'M', 'T', 'r', 'k'};
+        const auto rest = bytes_.subspan(reader_.offset(), reader_.left());
+        const auto inside = rest.first(std::min(length, rest.size()));
+        const auto next = std::search(inside.begin(), inside.end(), end_and_next.begin(), end_and_next.end());
+        if (next != inside.end()) {
+            notes_.repair(start + 4, track, LongChunk, "chunk of " + std::to_string(length) + " bytes",
+                          "a length that ends before the next chunk", "it ends where the next track begins");
+            return static_cast<std::size_t>(next - inside.begin()) + 3;
+        }
+        if (length >= rest.size() || is_whole(inside) || ends_well(rest.subspan(length))) return length;
+        const auto begin = rest.begin() + static_cast<std::ptrdiff_t>(length);
+        const auto end = std::search(begin, rest.end(), end_and_next.begin() + 3, end_and_next.end());
+        notes_.repair(start + 4, track, ShortChunk, "chunk of " + std::to_string(length) + " bytes",
+                      "a length that ends with End of Track", "it goes on to the next track");
+        return static_cast<std::size_t>(end - rest.begin());
+    }
+
+    static bool is_whole(std::span<const std::uint8_t> track) {
+        static constexpr std::array<std::uint8_t, 3> end{0xFF, 0x2F, 0x00};
+        return std::search(track.begin(), track.end(), end.begin(), end.end()) != track.end();
+    }
+
+    /// What may follow a track: a chunk, or zeros to the end.
+    bool ends_well(std::span<const std::uint8_t> rest) const {
+        if (std::all_of(rest.begin(), rest.end(), [](std::uint8_t byte) { return byte == 0; })) return true;
+        const auto begin = static_cast<std::size_t>(rest.data() - bytes_.data());
+        return at_chunk(ByteReader(bytes_, begin, begin + rest.size()));
+    }
+
     std::optional<ByteReader> take_chunk(std::size_t start, int track) {
         std::size_t length = *reader_.big_endian(4);
+        if (track >= 0 && !notes_.strict()) length = track_length(start, track, length);
         if (length > reader_.left()) {
             const std::string left = std::to_string(reader_.left());
             if (!notes_.repair(start + 4, track, LongChunk, "chunk of " + std::to_string(length) + " bytes",
@@ -264,8 +316,11 @@ Result<MidiFile> parse_midi(std::span<const std::uint8_t> bytes, MidiReading rea
     if (!end_tick) return end_tick.failure();
     if (file.track_count == 0)
         return midi_failure(reader.offset(), -1, "no track", "a track chunk (MTrk) after the header");
-    if (file.track_count > header.value().tracks && header.value().tracks > 0 && file.format != 0)
-        notes.repair(start + 10, -1, WrongCount, std::to_string(header.value().tracks) + " tracks announced",
+    if (file.track_count > header.value().tracks && header.value().tracks > 0 &&
+        (file.format != 0 || header.value().tracks == 1))
+        notes.repair(start + 10, -1, WrongCount,
+                     std::to_string(header.value().tracks) +
+                         (header.value().tracks == 1 ? " track" : " tracks") + " announced",
                      "as many as there are", "all " + std::to_string(file.track_count) + " are played");
     if (auto failure = assign_times(file, base.value(), end_tick.value(), notes)) return *std::move(failure);
     file.repairs = std::move(notes.repairs());

@@ -79,9 +79,20 @@ void put_in_order(MidiFile& file) {
     }
 }
 
+/// Of notes and pedals (64, 66, 69); of all messages if there is none of these.
+std::uint64_t last_played(const MidiFile& file) {
+    const auto plays = [](const MidiEvent& event) {
+        const bool pedal = event.data1 == 64 || event.data1 == 66 || event.data1 == 69;
+        return (event.status & 0xE0) == 0x80 || ((event.status & 0xF0) == 0xB0 && pedal);
+    };
+    const auto last = std::find_if(file.events.rbegin(), file.events.rend(), plays);
+    if (last != file.events.rend()) return last->time;
+    return file.events.empty() ? 0 : file.events.back().time;
+}
+
 std::optional<Failure> set_end(MidiFile& file, Clock& clock, std::uint64_t end_tick, MidiNotes& notes) {
     const auto end = clock.time_at(end_tick);
-    const std::uint64_t last = file.events.empty() ? 0 : file.events.back().time;
+    const std::uint64_t last = last_played(file);
     const std::uint64_t silent_end = longest_silent_end_s * file.time_units_per_s;
     if (end && (notes.strict() || *end - last <= silent_end || file.events.empty())) {
         file.end_time = *end;
@@ -89,10 +100,10 @@ std::optional<Failure> set_end(MidiFile& file, Clock& clock, std::uint64_t end_t
     }
     if (notes.strict()) return Failure{"end of track", "tick " + std::to_string(end_tick), longest_text()};
     file.end_time = last;
+    std::erase_if(file.events, [last](const MidiEvent& event) { return event.time > last; });
     const std::string late =
         end ? std::to_string((*end - last) / file.time_units_per_s) + " s after" : "long after";
-    notes.repairs().push_back(
-        {"end of track", late + " the last message", "the music ends with that message", 1});
+    notes.repairs().push_back({"end of track", late + " the last note", "the music ends with that note", 1});
     return std::nullopt;
 }
 

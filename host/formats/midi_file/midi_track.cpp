@@ -292,7 +292,9 @@ class TrackParser {
 
     bool parse_port(std::size_t start, std::span<const std::uint8_t> body) {
         if (body.size() != 1 || body[0] > 0x7F)
-            return repair(BadPort, start, "MIDI port of " + std::to_string(body.size()) + " bytes",
+            return repair(BadPort, start,
+                          "MIDI port " + (body.size() == 1 ? std::to_string(body[0])
+                                                           : "of " + std::to_string(body.size()) + " bytes"),
                           "1 byte, 0 to 127", "it is left out");
         port_ = body[0];
         has_port_ = true;

@@ -1,8 +1,11 @@
 #include "formats/scene/read_contacts.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
+#include "formats/scene/read_attachments.h"
+#include "formats/scene/read_drives.h"
 #include "jawari/scene/obstacles.h"
 
 namespace jawari::host {
@@ -13,23 +16,35 @@ using json::ObjectReader;
 using json::Problems;
 using json::Value;
 
-ContactDescription read_contact(const Value& value, const std::string& path, Problems& problems) {
-    ObjectReader reader(value, path, {"position_m", "height_m", "restitution", "side"}, problems);
+ContactDescription read_contact(ObjectReader& reader, std::size_t index, System& system,
+                                DrivenTables& tables) {
     ContactDescription contact;
-    contact.position_m = reader.number("position_m");
-    contact.height_m = reader.number("height_m");
+    const Place place = system.place(reader);
+    contact.position_m = place.position_m;
+    contact.point = place.point;
+    if (!reader.has("motion")) {
+        contact.height_m = reader.number("height_m");
+    } else if (reader.has("height_m")) {
+        reader.problems().add(reader.path_of("height_m"), "beside a motion", "either height_m or motion");
+    }
     contact.restitution = reader.number_or("restitution", 0, {0, 1});
     contact.side = reader.choice_or("side", Side::Below, {{"below", Side::Below}, {"above", Side::Above}});
+    contact.compliance = read_compliance(reader);
+    read_motion(reader, index, tables);
     return contact;
 }
 
-std::vector<ContactDescription> read_contact_list(ObjectReader& string) {
+std::vector<ContactDescription> read_contact_list(ObjectReader& string, System& system,
+                                                  DrivenTables& tables) {
     std::vector<ContactDescription> contacts;
     const json::Array* array = string.array("contacts", limits::contacts);
     if (array == nullptr) return contacts;
-    for (std::size_t i = 0; i < array->size() && !string.problems().any(); ++i)
-        contacts.push_back(
-            read_contact((*array)[i], json::indexed(string.path_of("contacts"), i), string.problems()));
+    for (std::size_t i = 0; i < array->size() && !string.problems().any(); ++i) {
+        ObjectReader reader((*array)[i], json::indexed(string.path_of("contacts"), i),
+                            {system.place_key(), "height_m", "restitution", "side", "compliance", "motion"},
+                            string.problems());
+        contacts.push_back(read_contact(reader, i, system, tables));
+    }
     return contacts;
 }
 
@@ -48,14 +63,21 @@ std::vector<double> read_fret_heights(ObjectReader& frets, std::size_t count, bo
     return heights;
 }
 
+std::vector<ContactDescription> complying(std::vector<ContactDescription> contacts,
+                                          const std::optional<Compliance>& compliance) {
+    for (ContactDescription& contact : contacts) contact.compliance = compliance;
+    return contacts;
+}
+
 std::vector<ContactDescription> read_frets(ObjectReader& string, double length_m, ContactSources& sources) {
-    ObjectReader frets(*string.find("frets"), string.path_of("frets"), {"count", "height_m", "restitution"},
-                       string.problems());
+    ObjectReader frets(*string.find("frets"), string.path_of("frets"),
+                       {"count", "height_m", "restitution", "compliance"}, string.problems());
     const std::size_t count = frets.whole_number("count", 1, limits::contacts - sources.contacts);
     const auto heights = read_fret_heights(frets, count, sources.fret_heights_listed);
     const double restitution = frets.number_or("restitution", 0, {0, 1});
+    const auto compliance = read_compliance(frets);
     if (string.problems().any()) return {};
-    return equal_temperament_frets(length_m, heights, restitution);
+    return complying(equal_temperament_frets(length_m, heights, restitution), compliance);
 }
 
 std::vector<ProfilePoint> read_profile(ObjectReader& neck) {
@@ -84,13 +106,14 @@ std::vector<ProfilePoint> read_profile(ObjectReader& neck) {
 std::vector<ContactDescription> read_neck(ObjectReader& string, double length_m,
                                           const ContactSources& sources) {
     ObjectReader neck(*string.find("neck"), string.path_of("neck"),
-                      {"grid_points", "profile_m", "restitution"}, string.problems());
+                      {"grid_points", "profile_m", "restitution", "compliance"}, string.problems());
     const std::size_t points =
         neck.whole_number("grid_points", 1, limits::contacts - sources.contacts - sources.frets);
     const auto profile = read_profile(neck);
     const double restitution = neck.number_or("restitution", 0, {0, 1});
+    const auto compliance = read_compliance(neck);
     if (string.problems().any()) return {};
-    return sampled_neck(length_m, points, profile, restitution);
+    return complying(sampled_neck(length_m, points, profile, restitution), compliance);
 }
 
 void append(std::vector<ContactDescription>& list, const std::vector<ContactDescription>& more) {
@@ -99,10 +122,10 @@ void append(std::vector<ContactDescription>& list, const std::vector<ContactDesc
 
 }  // namespace
 
-std::vector<ContactDescription> read_all_contacts(ObjectReader& string, double length_m,
-                                                  ContactSources& sources) {
+std::vector<ContactDescription> read_all_contacts(ObjectReader& string, System& system, double length_m,
+                                                  ContactSources& sources, DrivenTables& tables) {
     std::vector<ContactDescription> contacts;
-    if (string.has("contacts")) contacts = read_contact_list(string);
+    if (string.has("contacts")) contacts = read_contact_list(string, system, tables);
     sources.contacts = contacts.size();
     if (string.has("frets")) append(contacts, read_frets(string, length_m, sources));
     sources.frets = contacts.size() - sources.contacts;

@@ -5,11 +5,13 @@
 
 #include "formats/json/object_reader.h"
 #include "formats/scene/scene.h"
+#include "formats/scene/system.h"
 #include "jawari/scene/description.h"
 
 namespace jawari::host {
 
-std::vector<ContactDescription> read_all_contacts(json::ObjectReader& string, double length_m,
-                                                  ContactSources& sources);
+/// Motions of contacts go to `tables`.
+std::vector<ContactDescription> read_all_contacts(json::ObjectReader& string, System& system, double length_m,
+                                                  ContactSources& sources, DrivenTables& tables);
 
 }  // namespace jawari::host

@@ -38,11 +38,14 @@ void read_strings(json::ObjectReader& reader, Scene& scene) {
     if (strings == nullptr) return;
     for (std::size_t i = 0; i < strings->size() && !reader.problems().any(); ++i) {
         ContactSources sources;
+        DrivenTables tables;
         const std::string path = json::indexed(reader.path_of("strings"), i);
-        scene.description.strings.push_back(read_string((*strings)[i], path, sources, reader.problems()));
+        scene.description.strings.push_back(
+            read_string((*strings)[i], path, sources, tables, reader.problems()));
         if (scene.description.strings.back().name.empty())
             scene.description.strings.back().name = "string" + std::to_string(i);
         scene.contact_sources.push_back(sources);
+        scene.tables.push_back(std::move(tables));
     }
 }
 
@@ -90,7 +93,8 @@ Outcome<Scene> read_scene(const std::string& text, const std::string& file) {
 }
 
 Outcome<Scene> load_scene(const std::string& argument) {
-    if (!path_exists(argument)) {
+    const bool from_input = argument == "-";
+    if (!from_input && !path_exists(argument)) {
         const BuiltinFile* builtin = find_builtin("scenes", argument);
         if (builtin == nullptr) return unknown_scene(argument);
         auto scene = read_scene(std::string(builtin->text), argument);
@@ -99,7 +103,7 @@ Outcome<Scene> load_scene(const std::string& argument) {
     }
     auto text = read_file(argument, json::limits::file_bytes);
     if (!text) return text.error();
-    return read_scene(text.value(), argument);
+    return read_scene(text.value(), from_input ? "standard input" : argument);
 }
 
 std::vector<std::string> builtin_scene_names() {

@@ -2,8 +2,11 @@
 
 #include <utility>
 
+#include "formats/scene/read_attachments.h"
 #include "formats/scene/read_contacts.h"
-#include "formats/scene/read_modes.h"
+#include "formats/scene/read_drives.h"
+#include "formats/scene/read_probes.h"
+#include "formats/scene/system.h"
 
 namespace jawari::host {
 
@@ -21,84 +24,76 @@ ModalState read_modal_state(ObjectReader& reader) {
     return state;
 }
 
+Profile read_profile(const Value& value, const std::string& path, Problems& problems) {
+    ObjectReader reader(value, path, {"position_m", "displacement_m", "velocity_m_per_s"}, problems);
+    Profile profile;
+    profile.position_m = reader.numbers("position_m", limits::profile_points);
+    if (reader.has("displacement_m"))
+        profile.displacement_m = reader.numbers("displacement_m", limits::profile_points);
+    if (reader.has("velocity_m_per_s"))
+        profile.velocity_m_per_s = reader.numbers("velocity_m_per_s", limits::profile_points);
+    if (!reader.has("displacement_m") && !reader.has("velocity_m_per_s"))
+        problems.add(path, "neither", "displacement_m, velocity_m_per_s or both");
+    return profile;
+}
+
 InitialCondition read_initial(const Value& value, const std::string& path, Problems& problems) {
-    ObjectReader reader(value, path, {"pluck", "modal_displacement", "modal_velocity", "start"}, problems);
+    ObjectReader reader(value, path, {"pluck", "profile", "modal_displacement", "modal_velocity", "start"},
+                        problems);
     InitialCondition initial;
     initial.start =
         reader.choice_or("start", Start::Exact, {{"exact", Start::Exact}, {"backward", Start::Backward}});
     const bool modal = reader.has("modal_displacement") || reader.has("modal_velocity");
     const Value* pluck = reader.find("pluck");
+    const Value* profile = reader.find("profile");
     if (pluck != nullptr && modal)
         problems.add(reader.path_of("pluck"), "beside a modal state", "either a pluck or a modal state");
+    if (profile != nullptr && (pluck != nullptr || modal))
+        problems.add(reader.path_of("profile"), "beside another start",
+                     "one of profile, pluck and modal state");
     if (pluck != nullptr) {
         ObjectReader corner(*pluck, reader.path_of("pluck"), {"position_m", "height_m"}, problems);
         initial.shape = Pluck{corner.number("position_m"), corner.number("height_m")};
+    } else if (profile != nullptr) {
+        initial.shape = read_profile(*profile, reader.path_of("profile"), problems);
     } else if (modal) {
         initial.shape = read_modal_state(reader);
     }
     return initial;
 }
 
-Quantity read_quantity(const Value& value, const std::string& path, Problems& problems) {
-    ObjectReader reader(value, path, {"quantity", "position_m", "contact"}, problems);
-    return reader.choice<Quantity>("quantity", {{"displacement", Quantity::Displacement},
-                                                {"velocity", Quantity::Velocity},
-                                                {"contact_force", Quantity::ContactForce},
-                                                {"energy", Quantity::Energy}});
-}
-
-/// Each quantity has its own keys, so that a position given for an energy is not silently ignored.
-ProbeDescription read_probe(const Value& value, const std::string& path, Problems& problems) {
-    ProbeDescription probe;
-    probe.quantity = read_quantity(value, path, problems);
-    switch (probe.quantity) {
-        case Quantity::Displacement:
-        case Quantity::Velocity: {
-            ObjectReader reader(value, path, {"quantity", "position_m"}, problems);
-            probe.position_m = reader.number("position_m");
-            break;
-        }
-        case Quantity::ContactForce: {
-            ObjectReader reader(value, path, {"quantity", "contact"}, problems);
-            probe.contact = reader.whole_number("contact", 0, limits::contacts - 1);
-            break;
-        }
-        case Quantity::Energy:
-            ObjectReader(value, path, {"quantity"}, problems);
-            break;
-    }
-    return probe;
-}
-
-std::vector<ProbeDescription> read_probes(ObjectReader& reader) {
-    std::vector<ProbeDescription> probes;
-    if (!reader.has("probes")) return probes;
-    const json::Array* array = reader.array("probes", limits::probes);
-    if (array == nullptr) return probes;
-    for (std::size_t i = 0; i < array->size() && !reader.problems().any(); ++i)
-        probes.push_back(
-            read_probe((*array)[i], json::indexed(reader.path_of("probes"), i), reader.problems()));
-    return probes;
-}
-
 }  // namespace
 
 StringDescription read_string(const Value& value, const std::string& path, ContactSources& sources,
-                              Problems& problems) {
-    ObjectReader reader(value, path,
-                        {"name", "length_m", "linear_density_kg_per_m", "modes", "initial", "contacts",
-                         "frets", "neck", "probes"},
-                        problems);
+                              DrivenTables& tables, Problems& problems) {
+    const auto* object = std::get_if<json::Object>(&value.content);
+    const Value* modes = object == nullptr ? nullptr : json::find(*object, "modes");
+    System system = modes == nullptr ? System() : System::read(*modes, json::member(path, "modes"), problems);
+    std::vector<std::string_view> keys{"name",    "modes",  "initial", "contacts", "springs",
+                                       "hammers", "forces", "plucks",  "probes"};
+    if (system.is_string())
+        keys = {"name",    "length_m", "linear_density_kg_per_m",
+                "modes",   "initial",  "contacts",
+                "frets",   "neck",     "springs",
+                "hammers", "forces",   "plucks",
+                "probes"};
+    ObjectReader reader(value, path, keys, problems);
     StringDescription string;
     string.name = reader.text_or("name", "");
-    string.length_m = reader.number("length_m");
-    string.linear_density_kg_per_m = reader.number("linear_density_kg_per_m");
-    if (const Value* modes = reader.require("modes", "an object"))
-        string.modes = read_modes(*modes, reader.path_of("modes"), problems);
+    if (system.is_string()) {
+        string.length_m = reader.number("length_m");
+        string.linear_density_kg_per_m = reader.number("linear_density_kg_per_m");
+    }
+    reader.require("modes", "an object");
     if (const Value* initial = reader.find("initial"))
         string.initial = read_initial(*initial, reader.path_of("initial"), problems);
-    string.contacts = read_all_contacts(reader, string.length_m, sources);
-    string.probes = read_probes(reader);
+    string.contacts = read_all_contacts(reader, system, string.length_m, sources, tables);
+    string.springs = read_springs(reader, system);
+    string.hammers = read_hammers(reader, system);
+    read_forces(reader, system, string, tables);
+    read_plucks(reader, system, string, tables);
+    string.probes = read_probes(reader, system);
+    if (!problems.any()) system.finish(string);
     return string;
 }
 

@@ -9,7 +9,8 @@
 
 namespace jawari::host {
 
+/// Forces and motions have no values yet: `tables` gets what they follow.
 StringDescription read_string(const json::Value& value, const std::string& path, ContactSources& sources,
-                              json::Problems& problems);
+                              DrivenTables& tables, json::Problems& problems);
 
 }  // namespace jawari::host

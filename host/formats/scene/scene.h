@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "formats/scene/time_table.h"
 #include "jawari/result.h"
 #include "jawari/scene/description.h"
 
@@ -20,6 +21,23 @@ struct ContactSources {
     std::size_t neck = 0;              ///< from "neck"
 };
 
+/// What a force follows.
+struct ForceTable {
+    TimeTable table;
+    std::optional<double> height_m;  ///< of a pluck: the table's 1 stands for the force that pulls so far
+};
+
+/// What a contact's height follows.
+struct MotionTable {
+    TimeTable table;
+    std::size_t contact = 0;
+};
+
+struct DrivenTables {
+    std::vector<ForceTable> forces;  ///< in the order of StringDescription::forces
+    std::vector<MotionTable> motions;
+};
+
 struct Scene {
     std::string file;  ///< the file's path or the built-in name, for messages
     std::string name;  ///< for headings: the file's name without folder and extension, or the built-in name
@@ -31,16 +49,19 @@ struct Scene {
     std::optional<double> contact_rate_hz;
     std::optional<ImpactLaw> law;
     std::vector<ContactSources> contact_sources;  ///< one per string
+    std::vector<DrivenTables> tables;             ///< one per string
 };
 
 /// Longest simulation.
 inline constexpr double longest_duration_s = 86400;
+/// Values of a force or a motion: 10 minutes at 192 kHz.
+inline constexpr std::size_t most_driven_frames = 115'200'000;
 /// Scenes without contact_rate_hz get at least this.
 inline constexpr double default_contact_rate_hz = 2e6;
 
 /// Fills in what depends on other settings: contact rate (the smallest multiple of the output rate that is >=
-/// 2 MHz) and law
-/// (`signorini`; `newton` for the theta scheme, which has no other).
+/// 2 MHz), law (`signorini`; `newton` for the theta scheme, which has no other), and the values of forces and
+/// motions at the output rate.
 void resolve_defaults(Scene& scene);
 
 /// The engine numbers all contacts of a string in one list; this names the key of the file that a failure is

@@ -13,7 +13,7 @@ std::string word(Start start);
 std::string word(Side side);
 std::string word(Quantity quantity);
 
-/// `m`, `m/s`, `N` or `J`.
-std::string unit(Quantity quantity);
+/// `m`, `m/s`, `m/s^2`, `1`, `N`, `J`; modal coordinates `m^1.5`, or `m` where shapes are tabled.
+std::string unit(Quantity quantity, bool tabled_shapes);
 
 }  // namespace jawari::host

@@ -9,9 +9,9 @@
 
 namespace jawari::host {
 
-/// [Exact Tuning] if it has notes, [Tuning] otherwise. Files that have neither but formulas ([Functional
-/// Tuning]), keys that play other notes ([Mapping]) or several scales are refused. Failure::place is the
-/// line.
+/// [Exact Tuning] if it has notes, [Tuning] otherwise: both say what each key plays, [Mapping] is in them. A
+/// file that has neither is read by its formulas and its mapping ([Functional Tuning], tun_formulas.h).
+/// Several scales are refused. Failure::place is the line.
 Result<KeyFrequencies> parse_tun(std::string_view text);
 
 }  // namespace jawari::host

@@ -74,7 +74,7 @@ TEST(MalformedCorpus, EachOfTwoHundredFilesIsOneClearError) {
         const Bytes bytes = file_with_track(rich_track());
         return std::string(bytes.begin(), bytes.end());
     }());
-    arguments.insert(arguments.end(), {good, "-o", folder.file("out"), "--tail", "0", "--strict"});
+    arguments.insert(arguments.end(), {good, "-o", folder.file("out"), "--tail", "0", "--strict", "--quiet"});
     const Ran ran = jawari(arguments);
     EXPECT_EQ(ran.exit_code, 3);
     EXPECT_EQ(ran.error_lines(), 200);

@@ -346,6 +346,37 @@ TEST(SystemMessages, KindsThatAreIgnoredHaveNames) {
     }
 }
 
+TEST(SystemMessages, PartsOfGsAndXgAreSetAsByControllers) {
+    using Bytes = std::vector<std::uint8_t>;
+    const auto text = [](const Bytes& bytes) {
+        std::string all;
+        for (const ChannelMessage& message : decode_exclusive(bytes).messages)
+            all += std::to_string(message.status) + " " + std::to_string(message.data1) + " " +
+                   std::to_string(message.data2) + ";";
+        return all;
+    };
+    const auto gs = [&](std::uint8_t part, std::uint8_t address, Bytes data) {
+        Bytes bytes{0x41, 0x10, 0x42, 0x12, 0x40, part, address};
+        bytes.insert(bytes.end(), data.begin(), data.end());
+        bytes.push_back(0);  // checksum
+        return text(bytes);
+    };
+    EXPECT_EQ(gs(0x11, 0x00, {8, 24}), "176 0 8;192 24 0;");  // part 1 is channel 1
+    EXPECT_EQ(gs(0x10, 0x00, {0, 16}), "185 0 0;201 16 0;");  // block 0 is channel 10
+    EXPECT_EQ(gs(0x1A, 0x19, {50}), "186 7 50;");             // block A is channel 11
+    EXPECT_EQ(gs(0x12, 0x1C, {127}), "177 10 127;");
+    EXPECT_EQ(gs(0x12, 0x1C, {0}), "");  // random
+    const auto xg = [&](std::uint8_t address, std::uint8_t value) {
+        return text({0x43, 0x10, 0x4C, 0x08, 0x03, address, value});
+    };
+    EXPECT_EQ(xg(0x01, 127), "179 0 127;");
+    EXPECT_EQ(xg(0x02, 3), "179 32 3;");
+    EXPECT_EQ(xg(0x03, 24), "195 24 0;");
+    EXPECT_EQ(xg(0x0B, 50), "179 7 50;");
+    EXPECT_EQ(xg(0x0E, 1), "179 10 1;");
+    EXPECT_EQ(xg(0x0E, 0), "");
+}
+
 TEST(SystemMessages, PrivateFormComesBack) {
     for (std::uint8_t status = first_system_kind; status <= last_system_kind; ++status) {
         const ChannelMessage message{status, 5, 127};

@@ -16,31 +16,14 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "base/builtin.h"
 #include "plugin/clap/extensions.h"
+#include "support/plugin_formats.h"
+#include "support/small_preset.h"
 
 namespace jawari::test {
-
-/// A factory preset made cheap: few modes, a low contact rate.
-inline std::string small_preset_text(const std::string& name) {
-    auto preset = nlohmann::ordered_json::parse(host::find_builtin("instruments", name)->text);
-    preset["contact_rate_min_hz"] = 96000;
-    preset["mode_limit_hz"] = 3000;
-    preset.erase("studio");
-    preset.erase("provenance");
-    return preset.dump();
-}
-
-/// A state whose instrument is cheap, and nothing else of it is set.
-inline std::string small_state(const std::string& name = "bass-fretted") {
-    const nlohmann::ordered_json state{{"schema", "jawari.plugin/1"},
-                                       {"preset", {{"name", name}, {"text", small_preset_text(name)}}}};
-    return state.dump();
-}
 
 /// The file, loaded once.
 inline const clap_plugin_entry_t& clap_entry_of_file() {
@@ -134,6 +117,8 @@ class ClapEvents {
 /// One instance in its host. Buffers are as long as the block and no longer: sanitizers see who writes past.
 class ClapInstance {
   public:
+    static constexpr const char* format = "CLAP";
+
     ClapInstance() {
         host_ = {CLAP_VERSION_INIT,
                  this,
@@ -175,6 +160,8 @@ class ClapInstance {
         active_ = false;
     }
 
+    void reset() { plugin->reset(plugin); }
+
     /// Takes the events and appends a block to the sound.
     clap_process_status process(std::uint32_t frames, std::int64_t steady_time = -1) {
         std::vector<std::vector<float>> channels(2 + strings_wanted, std::vector<float>(frames, 99.0F));
@@ -206,13 +193,7 @@ class ClapInstance {
         return status;
     }
     /// `frames` frames in blocks of `block`.
-    void render(std::size_t frames, std::uint32_t block = 256) {
-        for (std::size_t done = 0; done < frames;) {
-            const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(block, frames - done));
-            process(count);
-            done += count;
-        }
-    }
+    void render(std::size_t frames, std::uint32_t block = 256) { render_in_blocks(*this, frames, block); }
 
     [[nodiscard]] double value(clap_id id) const {
         double value = 1e99;

@@ -22,14 +22,14 @@ struct ExactFactors {
     double s = 4;  ///< 1 + e + A
 };
 
-/// Computes d, e and s without the cancellation of 1 + e -+ A. omega > 0 [rad/s], sigma >= 0 [1/s], h > 0
+/// Computes d, e and s without the cancellation of 1 + e -+ A. omega >= 0 [rad/s], sigma >= 0 [1/s], h > 0
 /// [s]. Relative error <= 4e-16 except where the argument of the sine is itself ill conditioned: near W h = 2
 /// pi n, where an error of half an ulp in W h costs W h eps / |tan(W h/2)| (docs/engine/accuracy.md).
 /// Threads: any; realtime-safe.
 ExactFactors exact_factors(double omega, double sigma, double h);
 
 /// A step of the exact scheme ("Modal-Moreau-Jean", Issanchou et al. 2018; Siconos, MoreauJeanBilbaoOSI).
-/// omega > 0 [rad/s], sigma >= 0 [1/s], h > 0 [s]. Threads: any; realtime-safe.
+/// omega >= 0 [rad/s], sigma >= 0 [1/s], h > 0 [s]. Threads: any; realtime-safe.
 StepCoefficients exact_step(double omega, double sigma, double h);
 
 /// P^m - I for m steps of free motion, and what a force does meanwhile.
@@ -43,12 +43,12 @@ struct FlightFactors {
 };
 
 /// m steps of free motion of the exact scheme in closed form: P^m = psi_m P - e psi_{m-1} I with psi_m =
-/// exp(-sigma (m-1) h) sin(m W h)/sin(W h) (Cayley-Hamilton). omega > 0 [rad/s], sigma >= 0 [1/s], h > 0 [s].
-/// Threads: any; realtime-safe.
+/// exp(-sigma (m-1) h) sin(m W h)/sin(W h) (Cayley-Hamilton). omega >= 0 [rad/s], sigma >= 0 [1/s], h > 0
+/// [s]. Threads: any; realtime-safe.
 FlightFactors flight_factors(double omega, double sigma, double h, std::size_t m);
 
 /// A step of the theta scheme (Siconos, MoreauJeanOSI): w' = 1/(1 + 2 theta sigma h + theta^2 omega^2 h^2).
-/// omega > 0 [rad/s], sigma >= 0 [1/s], h > 0 [s], theta from 1/2 to 1. Threads: any; realtime-safe.
+/// omega >= 0 [rad/s], sigma >= 0 [1/s], h > 0 [s], theta from 1/2 to 1. Threads: any; realtime-safe.
 StepCoefficients theta_step(double omega, double sigma, double h, double theta);
 
 /// Backward velocity (q0 - q(-h))/h of the free motion that passes q0 [m^(3/2)] with true velocity u0 at t =

@@ -51,6 +51,17 @@ struct CertificateShape {
     std::vector<double> reach;
 };
 
+/// Forces and heights that follow tables over output frames (docs/engine/model.md, "What moves from
+/// outside").
+struct Drives {
+    AlignedVector<double> force_rows;           ///< phi_k of each force's point, forces x stride
+    std::vector<std::vector<double>> force_N;   ///< per force: values at frames 0, 1, ...
+    std::vector<std::size_t> moved;             ///< index of each described contact that moves
+    std::vector<std::vector<double>> height_m;  ///< per moved contact: values at frames 0, 1, ...
+    /// Frames [first, second) in which a force acts or a height changes, in order, apart from one another.
+    std::vector<std::array<std::uint64_t, 2>> spans;
+};
+
 /// What a bend does not change: compile() makes it, and everything that plays the string shares it, read
 /// only. Arrays over modes have length `stride` (the mode count N padded by modes at rest); rows over
 /// contacts are `stride` apart.
@@ -58,8 +69,9 @@ struct StringShape {
     std::string name;
     double length_m = 0;
     double linear_density_kg_per_m = 0;
-    std::size_t mode_count = 0;  ///< N
-    std::size_t stride = 0;      ///< padded(N)
+    std::size_t mode_count = 0;  ///< N, and one for each hammer after the string's own
+    std::size_t hammer_count = 0;
+    std::size_t stride = 0;  ///< padded(N)
 
     AlignedVector<double> sigma;  ///< sigma_k [1/s]
 
@@ -85,7 +97,12 @@ struct StringShape {
     /// a contact that lies inside by this much a step (docs/engine/stability.md, "Gaps").
     double gap_rounding_m = 0;
     std::vector<double> contact_restitution;  ///< e_c
-    std::vector<double> contact_position;     ///< x_c [m]
+    /// Of each contact; stiffness and resistance 0: rigid. Empty if all are.
+    std::vector<Compliance> contact_compliance;
+    bool has_dashpots = false;                      ///< some contact has a resistance, which acts at any gap
+    std::vector<std::ptrdiff_t> contact_of_hammer;  ///< model index, -1 if dropped
+    Drives drives;
+    std::vector<double> contact_position;  ///< x_c [m]
     std::vector<Side> contact_side;
     /// A = h theta D = h theta S diag(w/mu) S^T [m/(N s)]: contact_count x contact_stride, or by grid
     /// distance.
@@ -109,8 +126,12 @@ struct StringShape {
 
     // -- probes, in the order described
     std::vector<ProbeDescription> probes;
-    AlignedVector<double>
-        probe_rows;  ///< phi_k(x) for displacement and velocity, zero for others; probes x stride
+    /// What a linear probe reads of displacement or velocity, zero for others; probes x stride. For
+    /// Acceleration phi_k(x).
+    AlignedVector<double> probe_rows;
+    /// Modal coordinates as described, in units of the engine's: 1, or 1/sqrt(M_k) with a ShapeTable, whose
+    /// modes the engine scales to the mass of 1 kg/m.
+    AlignedVector<double> coordinate_unit;
 };
 
 /// What holds at one tension only: compile() fills all of it, retuning (retune_kernel.h) what it can in one

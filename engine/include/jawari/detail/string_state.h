@@ -48,11 +48,14 @@ struct ContactState : ContactGaps {
     IndexList near;  ///< contacts evaluated at each step, the gaps of others are stale; make_near()
     std::vector<std::uint8_t> is_near;  ///< 1 for the contacts in `near`; make_near()
     // -- scratch of a step
-    IndexList candidates;            ///< contacts on which the impact law acts; select_candidates()
-    AlignedVector<double> gap_free;  ///< y_free; predict_gaps()
-    AlignedVector<double> gap_rate;  ///< S v of the step's start (theta scheme); note_approach()
-    AlignedVector<double> offset;    ///< r = y_free - tau; select_candidates()
-    AlignedVector<double> residual;  ///< r + A lambda; the solvers
+    IndexList candidates;  ///< contacts that may have an impulse; select_candidates()
+    IndexList rigid;       ///< those on which the impact law acts, where others are compliant; the same
+    IndexList compliant;   ///< the others; the same
+    AlignedVector<double> compliant_impulse;  ///< their lambda; solve_compliant_contacts()
+    AlignedVector<double> gap_free;           ///< y_free; predict_gaps()
+    AlignedVector<double> gap_rate;           ///< S v of the step's start (theta scheme); note_approach()
+    AlignedVector<double> offset;             ///< r = y_free - tau; select_candidates()
+    AlignedVector<double> residual;           ///< r + A lambda; the solvers
 };
 
 /// What the excitation adds to the bounds of every gap, docs/engine/certificate.md, section 4; add_kicks().

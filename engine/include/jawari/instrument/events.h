@@ -20,8 +20,13 @@ enum class InstrumentEventType {
     AllNotesOff,       ///< releases every key of the channel; the sustain pedal still holds their notes
     AllSoundOff,       ///< releases everything on the channel and fades it within fade_s
     ResetControllers,  ///< sets pedals, bends, pressures and timbre of the channel to neutral
-    SetParameter       ///< parameter; value in its unit; channel or every_channel
+    SetParameter,      ///< parameter; value in its unit; channel or every_channel
+    NoteLevel,         ///< key; value: 0 to most_note_level, 1 is neutral: factor of a held note's sound
+    NotePan            ///< key; value: -1 (left) to 1 (right), 0 is neutral: added to a held note's place
 };
+
+/// Largest value of a NoteLevel: 12 dB.
+inline constexpr double most_note_level = 4;
 
 /// InstrumentEvent::key of a Bend or Pressure for all notes of a channel.
 inline constexpr int every_key = -1;
@@ -111,6 +116,22 @@ constexpr InstrumentEvent press_note(std::size_t frame, int key, double pressure
             .channel = channel,
             .key = key,
             .value = pressure};
+}
+
+/// Scales the sound of one held note until its string is played again; the note that is called off rings out
+/// with it. `level`: 0 to most_note_level.
+constexpr InstrumentEvent set_note_level(std::size_t frame, int key, double level, int channel = 0) noexcept {
+    return {.frame = frame,
+            .type = InstrumentEventType::NoteLevel,
+            .channel = channel,
+            .key = key,
+            .value = level};
+}
+
+/// Moves one held note to the left or right of its string's and channel's place, likewise. `pan`: -1 to 1.
+constexpr InstrumentEvent set_note_pan(std::size_t frame, int key, double pan, int channel = 0) noexcept {
+    return {
+        .frame = frame, .type = InstrumentEventType::NotePan, .channel = channel, .key = key, .value = pan};
 }
 
 /// Sets the hardness of a channel's next plucks. `timbre`: 0 to 1, 0.5 is neutral.

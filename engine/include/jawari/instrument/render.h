@@ -15,8 +15,8 @@ namespace jawari {
 struct InstrumentOutput {
     double* left = nullptr;   ///< left channel; full scale is 1
     double* right = nullptr;  ///< right channel; full scale is 1
-    /// Empty, or one pointer for each string: its pickups with gain, volume and expression, without pan and
-    /// body.
+    /// Empty, or one pointer for each string: what it gives to the sound with gain, volume and expression,
+    /// without pan. That is its pickups, and the mean of the body's left and right when it alone drives it.
     std::span<double* const> strings;
 };
 

@@ -81,6 +81,8 @@ struct HeldNote {
     double velocity = 0;                                     ///< above 0, to 1
     double bend = std::numeric_limits<double>::quiet_NaN();  ///< its own bend [semitones]; NaN: channel's
     double pressure = std::numeric_limits<double>::quiet_NaN();  ///< its own, 0 to 1; NaN: the channel's
+    double level = 1;  ///< factor of its sound, 0 to most_note_level
+    double pan = 0;    ///< added to its place, -1 to 1
 };
 
 /// Keys that a course remembers below the held one in legato; the oldest is forgotten.
@@ -166,10 +168,12 @@ struct InstrumentState {
     std::vector<CourseState> courses;                  ///< as InstrumentModel::courses
     std::array<ChannelState, midi_channels> channels;  ///< controllers and parameters of each channel
     BodyState body;                                    ///< resonances of the body
-    std::uint64_t note_order = 0;                      ///< HeldNote::order of the next note-on
-    std::uint64_t frame = 0;                           ///< output frames rendered
-    bool waiting = false;                              ///< a stroke may be waiting
-    bool busy = false;                                 ///< a string may have a voice that is not idle
+    /// The body as each string alone drives it, for outputs of strings; empty without a body.
+    std::vector<BodyState> string_bodies;
+    std::uint64_t note_order = 0;     ///< HeldNote::order of the next note-on
+    std::uint64_t frame = 0;          ///< output frames rendered
+    bool waiting = false;             ///< a stroke may be waiting
+    bool busy = false;                ///< a string may have a voice that is not idle
     std::uint64_t strokes_until = 0;  ///< waiting strokes have been looked at before this output frame
     InstrumentCounters counters;      ///< notes and voices
     PlayerWork work;                  ///< energies that players have given to the strings

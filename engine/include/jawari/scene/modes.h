@@ -23,6 +23,9 @@ Modes modes_of(const StringDescription& string);
 /// up to limits::modes. Threads: any; realtime-safe.
 double mode_shape(std::size_t k, double x, double length_m);
 
+/// Its slope phi_k'(x) = sqrt(2/L) (k pi/L) cos(k pi x/L) [m^(-3/2)], as exact. Threads: any; realtime-safe.
+double mode_slope(std::size_t k, double x, double length_m);
+
 /// Modal coordinate q_k [m^(3/2)] of a triangle of height h at x_p: h L^3 phi_k(x_p) / (pi^2 k^2 x_p (L -
 /// x_p)). `k`: from 1; `length_m`: L, above 0 [m]. Threads: any; realtime-safe.
 double pluck_coordinate(std::size_t k, const Pluck& pluck, double length_m);

@@ -39,8 +39,9 @@ Resolution resolution_for(double error, double output_rate_hz);
 /// is right. `fundamental_hz`, `contact_rate_hz`: above 0. Threads: any; realtime-safe.
 double contact_error(double fundamental_hz, double contact_rate_hz);
 
-/// Leaves out all modes of the string but the first `count`, in its tables and in its initial state; nothing
-/// if it has no more. `count`: from 1. Precondition: compile() accepts the description. Threads: any.
+/// Leaves out all modes of the string but the first `count` and those up to the last that a probe reads, in
+/// its tables and in its initial state; nothing if it has no more. `count`: from 1. Precondition: compile()
+/// accepts the description. Threads: any.
 void keep_modes(StringDescription& string, std::size_t count);
 
 /// The scene at the resolution of a quality: its modes cut, its contact rate set. Precondition: compile()

@@ -36,11 +36,15 @@ VoiceGains gain_targets(const InstrumentModel& model, const InstrumentState& sta
                         int channel) JAWARI_REALTIME {
     const InstrumentStringModel& string = string_of(model, state, s);
     const ChannelState& controls = channel_of(state, channel);
-    const double pan = std::clamp(string.pan + parameter_of(controls, ParameterId::Pan), -1.0, 1.0);
+    // What still rings of another channel's note keeps nothing of the one that has taken its string.
+    const HeldNote& held = state.courses[string.course].held;
+    const HeldNote neutral{};
+    const HeldNote& own = held.channel == channel ? held : neutral;
+    const double pan = std::clamp(string.pan + parameter_of(controls, ParameterId::Pan) + own.pan, -1.0, 1.0);
     const double angle = (pan + 1) * std::numbers::pi / 4;
     VoiceGains gains;
     gains.level = string.level * parameter_of(controls, ParameterId::Volume) *
-                  parameter_of(controls, ParameterId::Expression);
+                  parameter_of(controls, ParameterId::Expression) * own.level;
     gains.left = std::numbers::sqrt2 * std::cos(angle);
     gains.right = std::numbers::sqrt2 * std::sin(angle);
     gains.body = parameter_of(controls, ParameterId::BodyMix);

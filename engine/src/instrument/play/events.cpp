@@ -201,6 +201,12 @@ void all_sound_off(const InstrumentModel& model, InstrumentState& state, int cha
     }
 }
 
+/// Of the held note of that key, if there is one.
+void set_of_note(InstrumentState& state, const InstrumentEvent& event, double HeldNote::*of_note) {
+    const std::size_t course = course_holding(state, event.channel, event.key);
+    if (course != no_course) state.courses[course].held.*of_note = event.value;
+}
+
 /// Of the whole channel if the event names no key.
 void set_expression(InstrumentState& state, const InstrumentEvent& event, double HeldNote::*of_note,
                     double ChannelState::*of_channel) {
@@ -208,8 +214,7 @@ void set_expression(InstrumentState& state, const InstrumentEvent& event, double
         channel_of(state, event.channel).*of_channel = event.value;
         return;
     }
-    const std::size_t course = course_holding(state, event.channel, event.key);
-    if (course != no_course) state.courses[course].held.*of_note = event.value;
+    set_of_note(state, event, of_note);
 }
 
 void reset_controllers(const InstrumentModel& model, InstrumentState& state, int channel) {
@@ -240,6 +245,10 @@ bool has_valid_value(const InstrumentEvent& event) {
     switch (event.type) {
         case InstrumentEventType::Bend:
             return std::abs(event.value) <= 96;  // false for NaN
+        case InstrumentEventType::NoteLevel:
+            return event.value >= 0 && event.value <= most_note_level;
+        case InstrumentEventType::NotePan:
+            return std::abs(event.value) <= 1;
         case InstrumentEventType::SetParameter: {
             const auto id = static_cast<std::size_t>(event.parameter);
             if (id >= parameter_count) return false;
@@ -270,6 +279,8 @@ bool is_of_chord(const InstrumentState& state, const InstrumentEvent& event) {
         case InstrumentEventType::Pressure:
         case InstrumentEventType::Timbre:
         case InstrumentEventType::SoftPedal:
+        case InstrumentEventType::NoteLevel:
+        case InstrumentEventType::NotePan:
             return true;
         case InstrumentEventType::SetParameter:
             return event.parameter != ParameterId::Legato;
@@ -318,6 +329,12 @@ void apply_event(const InstrumentModel& model, InstrumentState& state, const Ins
             break;
         case InstrumentEventType::SetParameter:
             set_parameter(state, event);
+            break;
+        case InstrumentEventType::NoteLevel:
+            set_of_note(state, event, &HeldNote::level);
+            break;
+        case InstrumentEventType::NotePan:
+            set_of_note(state, event, &HeldNote::pan);
             break;
     }
 }

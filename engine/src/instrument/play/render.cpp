@@ -53,6 +53,19 @@ void advance_string(const InstrumentModel& model, InstrumentState& state, std::s
     }
 }
 
+/// What the string alone gives to the output: its pickups, and the mean of both sides of the body, which is
+/// linear and so the sum of what each string drives it to. The first `sounding` frames of `one` are set.
+void write_string(const InstrumentModel& model, InstrumentState& state, std::size_t s, std::size_t sounding,
+                  const StringRun& one, double* out, std::size_t frames) {
+    for (std::size_t i = 0; i < frames; ++i) {
+        const VoiceSignals signals = i < sounding ? one.signals[i] : VoiceSignals{};
+        out[i] = signals.pickups;
+        if (state.string_bodies.empty()) continue;
+        const StereoSample body = advance_body(model.body, state.string_bodies[s], signals.bridge_N);
+        out[i] += (body.left + body.right) / 2;
+    }
+}
+
 /// Frames until anything but the passing of time happens to a voice, at most `frames`. While a stroke waits,
 /// frames are computed one by one.
 std::size_t run_length(const InstrumentState& state, std::size_t frames) {
@@ -77,8 +90,8 @@ void advance(const InstrumentModel& model, InstrumentState& state, std::span<dou
             run.right[i] += one.signals[i].right;
             run.bridge_N[i] += one.signals[i].bridge_N;
         }
-        for (std::size_t i = 0; s < strings.size() && i < run.frames; ++i)
-            strings[s][n + i] = sounds ? one.signals[i].pickups : 0.0;
+        if (s < strings.size())
+            write_string(model, state, s, sounds ? run.frames : 0, one, strings[s] + n, run.frames);
         busy = busy || state.strings[s].busy > 0;
     }
     state.busy = busy;

@@ -51,6 +51,7 @@ InstrumentState make_instrument_state(const InstrumentModel& model) {
     state.courses.resize(model.courses.size());
     state.channels.fill(neutral_channel());
     state.body = make_body_state(model.body);
+    if (model.body.count > 0) state.string_bodies.assign(model.strings.size(), state.body);
     return state;
 }
 
@@ -67,6 +68,7 @@ void reset(const InstrumentModel& model, InstrumentState& state) JAWARI_REALTIME
     std::fill(state.courses.begin(), state.courses.end(), CourseState{});
     state.channels.fill(neutral_channel());
     reset_body(state.body);
+    for (BodyState& body : state.string_bodies) reset_body(body);
     state.play = model.play;
     state.note_order = 0;
     set_clock(state, 0);

@@ -9,6 +9,7 @@
 #include "jawari/detail/string_model.h"
 #include "jawari/detail/string_state.h"
 #include "jawari/realtime.h"
+#include "string/contact/compliant_contacts.h"
 #include "string/contact/contact_stage.h"
 #include "string/contact/impact_law.h"
 
@@ -25,7 +26,8 @@ inline double frame_length(const StringModel& model) {
 /// How far ahead of a frame's end, or back before its start, the law looks for candidates [s]: a gap that is
 /// further from closing than its rate covers in that time is none (docs/engine/certificate.md, section 3).
 inline double lookahead(const StringModel& model) {
-    if (looks_back(model.shape->law)) return model.shape->step_s;
+    // A compliant contact's force spans the two steps around its own.
+    if (looks_back(model.shape->law) || has_compliant_contacts(model)) return model.shape->step_s;
     return looks_ahead(model.shape->law) ? model.shape->step_s / 2 : 0.0;
 }
 

@@ -11,10 +11,14 @@
 #include "jawari/scene/modes.h"
 #include "string/compile/compile_frames.h"
 #include "string/compile/contact_tables.h"
-#include "string/compile/static_equilibrium.h"
+#include "string/compile/drives.h"
+#include "string/compile/initial_state.h"
+#include "string/compile/places.h"
+#include "string/compile/probes.h"
 #include "string/compile/string_draft.h"
 #include "string/compile/validate.h"
 #include "string/kernels/mode_sums.h"
+#include "string/model/compliant_law.h"
 
 namespace jawari {
 namespace {
@@ -22,19 +26,25 @@ namespace {
 /// Below this share of the largest Delassus diagonal a contact cannot move the string (it sits on an end).
 constexpr double negligible_mobility = 1e-12;
 
+/// With a ShapeTable the engine's coordinates are q_k sqrt(M_k) and its mass is 1 kg/m on a length of 1 m.
 void set_modes(StringDraft& draft, const StringDescription& string) {
     StringShape& shape = *draft.shape;
     StringTuning& tuning = draft.model.tuning;
     const Modes modes = modes_of(string);
     shape.name = string.name;
-    shape.length_m = string.length_m;
-    shape.linear_density_kg_per_m = string.linear_density_kg_per_m;
-    shape.mode_count = modes.omega.size();
+    shape.length_m = string.shapes ? 1 : string.length_m;
+    shape.linear_density_kg_per_m = string.shapes ? 1 : string.linear_density_kg_per_m;
+    shape.hammer_count = string.hammers.size();
+    shape.mode_count = modes.omega.size() + shape.hammer_count;
     shape.stride = padded(shape.mode_count);
     tuning.omega.assign(shape.stride, 0.0);
     shape.sigma.assign(shape.stride, 0.0);
+    shape.coordinate_unit.assign(shape.stride, 1.0);
     std::copy(modes.omega.begin(), modes.omega.end(), tuning.omega.begin());
     std::copy(modes.sigma.begin(), modes.sigma.end(), shape.sigma.begin());
+    if (!string.shapes) return;
+    for (std::size_t k = 0; k < modes.omega.size(); ++k)
+        shape.coordinate_unit[k] = 1 / std::sqrt(string.shapes->modal_mass_kg[k]);
 }
 
 void set_energy_weights(StringDraft& draft, std::size_t k, const StepCoefficients& step) {
@@ -78,10 +88,6 @@ void set_step(StringDraft& draft, const SceneDescription& scene) {
     }
 }
 
-void write_mode_shapes(const StringShape& shape, double x, double sign, double* row) {
-    for (std::size_t k = 0; k < shape.mode_count; ++k) row[k] = sign * mode_shape(k + 1, x, shape.length_m);
-}
-
 void append_contact(StringShape& shape, const ContactDescription& contact, const AlignedVector<double>& row) {
     const double sign = contact.side == Side::Below ? 1.0 : -1.0;
     shape.contact_rows.insert(shape.contact_rows.end(), row.begin(), row.end());
@@ -89,38 +95,61 @@ void append_contact(StringShape& shape, const ContactDescription& contact, const
     shape.contact_restitution.push_back(contact.restitution);
     shape.contact_position.push_back(contact.position_m);
     shape.contact_side.push_back(contact.side);
+    shape.contact_compliance.push_back(contact.compliance.value_or(Compliance{}));
+    shape.has_dashpots = shape.has_dashpots || shape.contact_compliance.back().resistance_kg_per_s > 0;
     shape.contact_count += 1;
+}
+
+/// The gap of a hammer is that between the string and the hammer.
+AlignedVector<double> row_of(const StringShape& shape, const StringDescription& string,
+                             const ContactPlace& place) {
+    AlignedVector<double> row(shape.stride, 0.0);
+    const double sign = place.contact.side == Side::Below ? 1.0 : -1.0;
+    write_shape(shape, string, place.contact.position_m, place.contact.point, sign, row.data());
+    if (place.hammer)
+        row[hammer_mode(shape, *place.hammer)] = -sign * hammer_unit(shape, string.hammers[*place.hammer]);
+    return row;
+}
+
+/// What the contact has become in the model: its index there, or -1.
+void note_contact(StringShape& shape, const ContactPlace& place, std::size_t index, std::size_t described,
+                  std::ptrdiff_t kept) {
+    if (index < described) shape.contact_of_description.push_back(kept);
+    if (place.hammer) shape.contact_of_hammer.push_back(kept);
 }
 
 /// Rows of the contacts that can move the string; the others are dropped, or refused if they press on it at
 /// rest.
 std::optional<Failure> set_contacts(StringShape& shape, const StringDescription& string,
                                     const std::string& place) {
-    std::vector<AlignedVector<double>> rows(string.contacts.size(), AlignedVector<double>(shape.stride, 0.0));
-    std::vector<double> diagonal(string.contacts.size());
-    for (std::size_t i = 0; i < string.contacts.size(); ++i) {
-        const ContactDescription& contact = string.contacts[i];
-        write_mode_shapes(shape, contact.position_m, contact.side == Side::Below ? 1.0 : -1.0,
-                          rows[i].data());
-        diagonal[i] = kernels::weighted_square(shape.stride, shape.mobility.data(), 1, rows[i].data(), 0,
-                                               rows[i].data());
+    const std::vector<ContactPlace> places = contact_places(string);
+    std::vector<AlignedVector<double>> rows;
+    std::vector<double> diagonal;
+    double largest = 0;
+    for (const ContactPlace& each : places) {
+        rows.push_back(row_of(shape, string, each));
+        diagonal.push_back(kernels::weighted_square(shape.stride, shape.mobility.data(), 1,
+                                                    rows.back().data(), 0, rows.back().data()));
+        largest = std::max(largest, diagonal.back());
     }
-    const double largest = diagonal.empty() ? 0.0 : *std::max_element(diagonal.begin(), diagonal.end());
-    for (std::size_t i = 0; i < string.contacts.size(); ++i) {
-        const ContactDescription& contact = string.contacts[i];
+    const std::size_t described = string.contacts.size();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const ContactDescription& contact = places[i].contact;
         const bool immobile = !(diagonal[i] > negligible_mobility * largest);
         if (!immobile) {
-            shape.contact_of_description.push_back(static_cast<std::ptrdiff_t>(shape.contact_count));
+            note_contact(shape, places[i], i, described, static_cast<std::ptrdiff_t>(shape.contact_count));
             append_contact(shape, contact, rows[i]);
             continue;
         }
-        shape.contact_of_description.push_back(-1);
+        note_contact(shape, places[i], i, described, -1);
         const bool presses = contact.side == Side::Below ? contact.height_m > 0 : contact.height_m < 0;
-        if (presses) {
+        if (i < described && presses) {
             return Failure{place + ".contacts[" + std::to_string(i) + "].height_m", printed(contact.height_m),
                            "a height that leaves the string's end at rest, or a position inside the string"};
         }
     }
+    if (std::all_of(shape.contact_compliance.begin(), shape.contact_compliance.end(), is_rigid))
+        shape.contact_compliance.clear();
     return {};
 }
 
@@ -135,57 +164,6 @@ void set_gap_rounding(StringShape& shape) {
         largest = std::max(largest, size);
     }
     shape.gap_rounding_m = std::numeric_limits<double>::epsilon() / 2 * largest;
-}
-
-struct TrueState {
-    AlignedVector<double> displacement;
-    AlignedVector<double> velocity;
-};
-
-TrueState described_state(const StringShape& shape, const InitialCondition& initial) {
-    TrueState state{AlignedVector<double>(shape.stride, 0.0), AlignedVector<double>(shape.stride, 0.0)};
-    if (const auto* pluck = std::get_if<Pluck>(&initial.shape)) {
-        for (std::size_t k = 0; k < shape.mode_count; ++k) {
-            state.displacement[k] = pluck_coordinate(k + 1, *pluck, shape.length_m);
-        }
-    } else if (const auto* modal = std::get_if<ModalState>(&initial.shape)) {
-        std::copy(modal->displacement.begin(), modal->displacement.end(), state.displacement.begin());
-        std::copy(modal->velocity.begin(), modal->velocity.end(), state.velocity.begin());
-    }
-    return state;
-}
-
-/// A free string has a past in free motion; one that obstacles hold was at rest against them before t = 0.
-bool set_initial_state(StringDraft& draft, const InitialCondition& initial) {
-    StringShape& shape = *draft.shape;
-    StringTuning& tuning = draft.model.tuning;
-    const TrueState state = described_state(shape, initial);
-    const auto held = held_displacement(draft.model, state.displacement);
-    const AlignedVector<double> flat(shape.stride, 0.0);
-    const auto rest = state.displacement == flat ? held : held_displacement(draft.model, flat);
-    if (!held || !rest) return false;
-    const bool is_held = std::any_of(held->begin(), held->end(), [](double q) { return q != 0; });
-    shape.initial_displacement = state.displacement;
-    shape.initial_velocity = state.velocity;
-    for (std::size_t k = 0; k < shape.mode_count; ++k) {
-        if (initial.start == Start::Exact && shape.scheme == Scheme::Exact && !is_held) {
-            shape.initial_velocity[k] = exact_backward_velocity(tuning.omega[k], shape.sigma[k], shape.step_s,
-                                                                state.displacement[k], state.velocity[k]);
-        }
-        shape.initial_displacement[k] += (*held)[k];
-    }
-    shape.rest_displacement = *rest;
-    return true;
-}
-
-void set_probes(StringShape& shape, const StringDescription& string) {
-    shape.probes = string.probes;
-    shape.probe_rows.assign(string.probes.size() * shape.stride, 0.0);
-    for (std::size_t p = 0; p < string.probes.size(); ++p) {
-        const ProbeDescription& probe = string.probes[p];
-        if (probe.quantity != Quantity::Displacement && probe.quantity != Quantity::Velocity) continue;
-        write_mode_shapes(shape, probe.position_m, 1.0, shape.probe_rows.data() + p * shape.stride);
-    }
 }
 
 bool coefficients_are_finite(const StringModel& model) {
@@ -206,12 +184,10 @@ Result<StringModel> compile_string(const StringDescription& string, const SceneD
     if (auto failure = set_contacts(*draft.shape, string, place)) return *failure;
     set_compliance(*draft.shape);
     if (scene.scheme == Scheme::Exact) set_skipping(draft);
-    if (!set_initial_state(draft, string.initial)) {
-        return Failure{place + ".contacts", "obstacles from both sides",
-                       "obstacles between which the string fits"};
-    }
+    if (auto failure = set_initial_state(draft, string, place)) return *failure;
     set_gap_rounding(*draft.shape);
-    set_probes(*draft.shape, string);
+    set_drives(*draft.shape, string);
+    set_probes(draft, string);
     if (!coefficients_are_finite(draft.model)) {
         return Failure{place + ".modes", "frequencies or losses",
                        "values whose coefficients are finite and whose losses are not negative"};

@@ -77,6 +77,9 @@ void set_reach(StringDraft& draft) {
     const double frame_s = shape.step_s * static_cast<double>(shape.steps_per_frame);
     certificate.force_reach = bound_safety * (2 / shape.length_m) * square(frame_s) / 8 * kicks;
     std::vector<double>& reach = shape.certificate.reach;
+    // Energy does not bound how far a mode goes that nothing holds.
+    const auto modes_end = tuning.omega.begin() + static_cast<std::ptrdiff_t>(shape.mode_count);
+    if (std::find(tuning.omega.begin(), modes_end, 0.0) != modes_end) return;
     reach.assign(shape.contact_count, 0.0);
     for (std::size_t c = 0; c < shape.contact_count; ++c) {
         const double* row = shape.contact_rows.data() + c * shape.stride;
@@ -136,6 +139,8 @@ void set_skipping(StringDraft& draft) {
     set_groups(*draft.shape);
     set_push_speeds(draft);
     set_reach(draft);
+    // Frames with compliant contacts are stepped: the tables serve the solvers of rigid ones.
+    if (!draft.shape->contact_compliance.empty()) return;
     set_responses(draft);
     draft.shape->contact_columns = columns_for_short_frames(draft.model);
 }

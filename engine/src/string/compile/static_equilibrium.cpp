@@ -7,11 +7,20 @@
 #include "jawari/detail/lcp.h"
 #include "string/compile/block_pivots.h"
 #include "string/compile/contact_tables.h"
+#include "string/compile/places.h"
 #include "string/kernels/mode_sums.h"
+#include "string/model/compliant_law.h"
 #include "string/model/contact_response.h"
 
 namespace jawari {
 namespace {
+
+/// The gap of contacts that do not take part.
+constexpr double out_of_reach_m = 1e100;
+
+bool gives_way(const StringShape& shape, std::size_t c) {
+    return !shape.contact_compliance.empty() && !is_rigid(shape.contact_compliance[c]);
+}
 
 std::optional<std::vector<double>> forces(const ContactOperator& A, std::span<const double> gap) {
     const std::size_t count = gap.size();
@@ -37,13 +46,16 @@ std::optional<AlignedVector<double>> held_displacement(const StringModel& model,
     bool penetrates = false;
     for (std::size_t c = 0; c < count; ++c) {
         gap[c] -= model.shape->contact_height[c];
+        if (gives_way(*model.shape, c)) gap[c] = out_of_reach_m;
         penetrates = penetrates || gap[c] < 0;
     }
     if (!penetrates) return held;
 
     AlignedVector<double> compliance_of_mode(n, 0.0);  // 1/(mu omega^2)
-    for (std::size_t k = 0; k < model.shape->mode_count; ++k)
+    for (std::size_t k = 0; k < own_mode_count(*model.shape); ++k) {
+        if (model.tuning.potential[k] == 0) return {};
         compliance_of_mode[k] = 0.5 / model.tuning.potential[k];
+    }
     const AlignedVector<double> values = contact_operator(*model.shape, 1.0, compliance_of_mode);
     ContactOperator static_compliance = compliance_of(model);
     static_compliance.values = values.data();

@@ -4,6 +4,7 @@
 
 #include "base/assert.h"
 #include "jawari/detail/lcp.h"
+#include "string/contact/compliant_contacts.h"
 #include "string/contact/impact_law.h"
 #include "string/kernels/mode_sums.h"
 #include "string/kernels/response_sums.h"
@@ -34,9 +35,18 @@ double gap_response(const StringModel& model, const ContactState& contact, std::
     return response;
 }
 
-/// Scales a truncated solution by clamp(-lambda'(y_free - y_before)/(lambda' A lambda), 0, 1): impacts then
-/// do no work > 0.
-void make_passive(const StringModel& model, ContactState& contact) {
+/// out <- S x at the near contacts.
+void near_products(const StringModel& model, StringState& state, const AlignedVector<double>& x,
+                   AlignedVector<double>& out) {
+    const ContactState& contact = state.contact;
+    kernels::indexed_row_products(contact.near.data(), contact.near.size(), state.active_modes,
+                                  model.shape->stride, model.shape->contact_rows.data(), x.data(),
+                                  out.data());
+}
+
+}  // namespace
+
+void make_passive(const StringModel& model, ContactState& contact) JAWARI_REALTIME {
     double linear = 0;
     double quadratic = 0;
     for (const auto c : contact.candidates) {
@@ -48,17 +58,6 @@ void make_passive(const StringModel& model, ContactState& contact) {
     const double scale = quadratic > 0 ? std::clamp(-linear / quadratic, 0.0, 1.0) : 0.0;
     for (const auto c : contact.candidates) contact.impulse[c] *= scale;
 }
-
-/// out <- S x at the near contacts.
-void near_products(const StringModel& model, StringState& state, const AlignedVector<double>& x,
-                   AlignedVector<double>& out) {
-    const ContactState& contact = state.contact;
-    kernels::indexed_row_products(contact.near.data(), contact.near.size(), state.active_modes,
-                                  model.shape->stride, model.shape->contact_rows.data(), x.data(),
-                                  out.data());
-}
-
-}  // namespace
 
 void place_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
@@ -124,15 +123,25 @@ void predict_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME 
 
 bool select_candidates(const StringModel& model, StringState& state) JAWARI_REALTIME {
     ContactState& contact = state.contact;
+    const bool some_comply = has_compliant_contacts(model);
     contact.candidates.clear();
+    contact.rigid.clear();
+    contact.compliant.clear();
     bool violated = false;
     for (const auto c : contact.near) {
+        if (some_comply && is_compliant(model, c)) {
+            contact.candidates.push(c);
+            contact.compliant.push(c);
+            violated = violated || presses_alone(model, contact, c);
+            continue;
+        }
         const ContactMoment moment = moment_of(model, contact, c);
         if (!is_candidate(model.shape->law, moment)) {
             contact.impulse[c] = 0;
             continue;
         }
         contact.candidates.push(c);
+        if (some_comply) contact.rigid.push(c);
         contact.offset[c] = contact.gap_free[c] - target_gap(model.shape->law, moment);
         violated = violated || contact.offset[c] < 0;
     }
@@ -145,6 +154,10 @@ void clear_impulses(StringState& state) JAWARI_REALTIME {
 }
 
 void solve_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME {
+    if (has_compliant_contacts(model)) {
+        solve_compliant_contacts(model, state);
+        return;
+    }
     ContactState& contact = state.contact;
     Counters& counters = state.counters;
     const LcpOutcome outcome = solve_lcp(compliance_of(model), contact.offset, contact.candidates.span(),
@@ -194,8 +207,11 @@ void accept_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
         }
     }
     state.counters.candidates += contact.candidates.size();
-    for (const auto c : contact.near)
+    const bool some_comply = has_compliant_contacts(model);
+    for (const auto c : contact.near) {
+        if (some_comply && is_compliant(model, c)) continue;
         state.counters.worst_penetration_m = std::max(state.counters.worst_penetration_m, -contact.gap[c]);
+    }
 }
 
 }  // namespace jawari

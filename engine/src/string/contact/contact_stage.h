@@ -39,13 +39,17 @@ void note_approach(const StringModel& model, StringState& state) JAWARI_REALTIME
 /// gap_free <- the gaps at the step's end without impulses; state.velocity holds v_free.
 void predict_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
-/// Fills candidates and offset = y_free - tau by the impact law. Returns true if one is violated (so that
-/// lambda > 0 somewhere).
+/// Fills candidates and offset = y_free - tau by the impact law; compliant contacts are candidates too.
+/// Returns true if one is violated or presses (so that lambda > 0 somewhere).
 bool select_candidates(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
 /// impulse <- solution of the step's complementarity problem; a truncated solution is scaled until it is
 /// passive.
 void solve_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME;
+
+/// Scales a truncated solution by clamp(-lambda'(y_free - y_before)/(lambda' A lambda), 0, 1): impacts then
+/// do no work > 0.
+void make_passive(const StringModel& model, ContactState& contact) JAWARI_REALTIME;
 
 /// impulse <- 0 at all near contacts.
 void clear_impulses(StringState& state) JAWARI_REALTIME;

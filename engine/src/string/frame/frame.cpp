@@ -8,6 +8,7 @@
 #include "string/broad_phase/gap_bounds.h"
 #include "string/broad_phase/gap_certificate.h"
 #include "string/contact/contact_stage.h"
+#include "string/frame/drive.h"
 #include "string/frame/near_frame.h"
 #include "string/frame/short_frame.h"
 #include "string/frame/step.h"
@@ -266,6 +267,7 @@ void cross_frame(const StringModel& model, StringState& state, BroadPhaseAnswer 
 
 void advance_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {
     JAWARI_ASSERT(state.displacement.size() >= model.shape->stride);
+    drive_frame(model, state);
     cross_frame(model, state, plan_frames(model, state));
 }
 

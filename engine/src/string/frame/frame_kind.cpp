@@ -29,7 +29,7 @@ bool solves_short_frames(const StringModel& model, const StringState& state) JAW
 }
 
 bool steps_uniformly(const StringModel& model, const StringState& state) JAWARI_REALTIME {
-    return !may_skip(model, state) || state.contact.moving_count > 0 ||
+    return !may_skip(model, state) || state.contact.moving_count > 0 || model.shape->has_dashpots ||
            (!state.skipping.certificate && model.shape->contact_count > 0);
 }
 

@@ -24,14 +24,14 @@ ContactState make_contact_state(const StringSizes& sizes) {
     const std::size_t n = padded(sizes.contacts);
     ContactState contact;
     static_cast<ContactGaps&>(contact) = make_contact_gaps(n);
-    for (auto* array :
-         {&contact.height, &contact.height_before, &contact.height_rise_before, &contact.height_rate,
-          &contact.height_target, &contact.gap_free, &contact.gap_rate, &contact.offset, &contact.residual}) {
+    for (auto* array : {&contact.height, &contact.height_before, &contact.height_rise_before,
+                        &contact.height_rate, &contact.height_target, &contact.gap_free, &contact.gap_rate,
+                        &contact.offset, &contact.residual, &contact.compliant_impulse}) {
         array->assign(n, 0.0);
     }
     contact.moving_steps.assign(n, 0);
-    contact.candidates.allocate(n);
-    contact.near.allocate(n);
+    for (auto* list : {&contact.candidates, &contact.rigid, &contact.compliant, &contact.near})
+        list->allocate(n);
     contact.is_near.assign(n, 0);
     return contact;
 }
@@ -45,7 +45,7 @@ void place_obstacles(const StringModel& model, ContactState& contact) {
     }
     std::fill(contact.moving_steps.begin(), contact.moving_steps.end(), std::uint64_t{0});
     contact.moving_count = 0;
-    contact.candidates.clear();
+    for (auto* list : {&contact.candidates, &contact.rigid, &contact.compliant}) list->clear();
 }
 
 GapBounds make_gap_bounds(const StringSizes& sizes) {

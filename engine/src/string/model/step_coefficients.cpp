@@ -51,6 +51,12 @@ ExtendedFactors extended_factors(Extended omega, Extended sigma, Extended h) {
     return factors;
 }
 
+/// w = d/(omega h)^2, and its limit where nothing holds the mode: the mean of exp(-2 sigma t) over the step.
+Extended mobility(Extended omega, Extended sigma, Extended h, Extended d) {
+    if (omega > 0) return d / square(omega * h);
+    return sigma > 0 ? -std::expm1(-2 * sigma * h) / (2 * sigma * h) : 1;
+}
+
 }  // namespace
 
 ExactFactors exact_factors(double omega, double sigma, double h) {
@@ -63,7 +69,7 @@ StepCoefficients exact_step(double omega, double sigma, double h) {
     StepCoefficients step;
     set_retained_velocity(step, rounded(factors.e), rounded(std::expm1(-2 * Extended(sigma) * h)));
     step.restoring = rounded(-factors.d / h);
-    step.mobility = rounded(factors.d / square(Extended(omega) * h));
+    step.mobility = rounded(mobility(omega, sigma, h, factors.d));
     return step;
 }
 
@@ -128,7 +134,8 @@ FlightFactors flight_factors(double omega, double sigma, double h, std::size_t m
 
     const ExactFactors step = exact_factors(omega, sigma, h);
     // Responses to a force by stepping once through the frame.
-    const double impulse = h * step.d / square(omega * h);
+    const double impulse =
+        omega > 0 ? h * step.d / square(omega * h) : h * exact_step(omega, sigma, h).mobility;
     double q_held = 0, v_held = 0, q_ramp = 0, v_ramp = 0;
     for (std::size_t n = 0; n < m; ++n) {
         v_held = step.e * v_held - step.d / h * q_held + impulse;

@@ -4,16 +4,43 @@
 #include <cmath>
 
 #include "string/kernels/mode_sums.h"
+#include "string/model/compliant_law.h"
 #include "string/state/metering.h"
 
 namespace jawari {
 namespace {
 
-double energy_of(const StringModel& model, const AlignedVector<double>& displacement,
-                 const AlignedVector<double>& velocity) {
+/// A state between steps: the modes, and twice the mean height of each obstacle over the step before.
+struct Moment {
+    const AlignedVector<double>& displacement;
+    const AlignedVector<double>& velocity;
+    bool one_step_earlier;
+};
+
+double stored_in_contacts(const StringModel& model, const ContactState& contact, const Moment& moment) {
+    const StringShape& shape = *model.shape;
+    double stored = 0;
+    for (std::size_t c = 0; c < shape.contact_compliance.size(); ++c) {
+        const Compliance& law = shape.contact_compliance[c];
+        if (law.stiffness == 0) continue;
+        const double* row = shape.contact_rows.data() + c * shape.stride;
+        double place = 0;
+        double rate = 0;
+        kernels::row_products(1, shape.stride, shape.stride, row, moment.displacement.data(), &place);
+        kernels::row_products(1, shape.stride, shape.stride, row, moment.velocity.data(), &rate);
+        const double before = contact.height_before[c];
+        const double heights =
+            moment.one_step_earlier ? 2 * before - contact.height_rise_before[c] : contact.height[c] + before;
+        stored += stored_energy(law, place - shape.step_s / 2 * rate - heights / 2);
+    }
+    return stored;
+}
+
+double energy_of(const StringModel& model, const ContactState& contact, const Moment& moment) {
     const double lag = model.shape->scheme == Scheme::Exact ? model.shape->step_s / 2 : 0.0;
     return kernels::energy(model.shape->stride, model.tuning.kinetic.data(), model.tuning.potential.data(),
-                           lag, displacement.data(), velocity.data());
+                           lag, moment.displacement.data(), moment.velocity.data()) +
+           stored_in_contacts(model, contact, moment);
 }
 
 double dissipated_in_step(const StringModel& model, const StringState& state) {
@@ -92,16 +119,21 @@ double force_work(const StringModel& model, const StringState& state) {
 }  // namespace
 
 double energy(const StringModel& model, const StringState& state) JAWARI_REALTIME {
-    return energy_of(model, state.displacement, state.velocity);
+    return energy_of(model, state.contact, {state.displacement, state.velocity, false});
 }
 
 void meter_step(const StringModel& model, StringState& state) JAWARI_REALTIME {
     EnergyMeter& meter = state.energy;
     if (!std::isfinite(energy(model, state))) return;  // the frame's check resets the string, the meters stay
-    const double before = energy_of(model, state.displacement_before, state.velocity_before);
-    const double now = energy_of(model, state.displacement, state.velocity);
+    const Moment past{state.displacement_before, state.velocity_before, true};
+    const Moment present{state.displacement, state.velocity, false};
+    const double before = energy_of(model, state.contact, past);
+    const double now = energy_of(model, state.contact, present);
+    const double stored =
+        stored_in_contacts(model, state.contact, present) - stored_in_contacts(model, state.contact, past);
     const double dissipated = dissipated_in_step(model, state);
     StepWork work = impulse_work(model, state);
+    work.contact += stored;  // what contacts keep is not lost
     work.player += force_work(model, state);
 
     meter.highest = std::max(meter.highest, now);

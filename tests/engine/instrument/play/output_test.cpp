@@ -87,6 +87,33 @@ TEST(Body, CarriesTheGainOfTheInstrumentOnceOnly) {
     EXPECT_NE(once.left[1999], 0);
 }
 
+/// The body is linear: what each string alone drives it to adds up to what all drive it to.
+TEST(Body, OutputsOfStringsAddUpToTheMonoSound) {
+    InstrumentDescription instrument = test::bass_instrument();
+    instrument.frets = {};
+    instrument.pickups.clear();
+    instrument.body = {{.frequency_hz = 180, .t60_s = 0.2, .gain_left = 2, .gain_right = -1},
+                       {.frequency_hz = 400, .t60_s = 0.1, .gain_left = 0.5, .gain_right = 1.5}};
+    const InstrumentModel model = compile_instrument(instrument, 48000).value();
+    InstrumentState state = make_instrument_state(model);
+    const std::size_t frames = 3000;
+    std::vector<double> left(frames), right(frames);
+    std::vector<std::vector<double>> each(model.strings.size(), std::vector<double>(frames));
+    std::vector<double*> strings;
+    for (auto& string : each) strings.push_back(string.data());
+    const std::vector<InstrumentEvent> events{note_on(0, 28, 0.7), note_on(500, 38, 0.9),
+                                              note_off(2000, 28, 0.5)};
+    render_instrument(model, state, events, InstrumentOutput{left.data(), right.data(), strings}, frames);
+    double largest = 0;
+    for (std::size_t n = 0; n < frames; ++n) {
+        const double sum = each[0][n] + each[1][n] + each[2][n] + each[3][n];
+        largest = std::max(largest, std::abs(each[0][n]));
+        ASSERT_NEAR(sum, (left[n] + right[n]) / 2, 1e-12) << n;
+        ASSERT_EQ(each[1][n], 0) << n;
+    }
+    EXPECT_GT(largest, 1e-3);
+}
+
 /// A triangle of height a at x_p exerts T a/(L - x_p) on the bridge: what its modes add up to.
 TEST(Pickup, BridgeForceIsTensionTimesSlope) {
     InstrumentDescription instrument = open_string();
@@ -157,6 +184,60 @@ TEST(Pan, IsFromLeftToRightWithConstantPower) {
             EXPECT_LT(std::min(left, right), 1e-9 * power);
         }
     }
+}
+
+/// A note with an event of its own at frame 0, and the same note again afterwards.
+struct TwoNotes {
+    test::Played first, second;
+};
+
+TwoNotes played_with(const InstrumentModel& model, std::vector<InstrumentEvent> own) {
+    InstrumentState state = make_instrument_state(model);
+    own.insert(own.begin(), note_on(0, 28, 0.5));
+    TwoNotes notes;
+    notes.first = test::play(model, state, own, 6000);
+    test::play(model, state, {all_sound_off(0)}, 6000);
+    notes.second = test::play(model, state, {note_on(0, 28, 0.5)}, 6000);
+    return notes;
+}
+
+double power_of(const test::Played& played) {
+    return power_of(played.left) + power_of(played.right);
+}
+
+TEST(NoteLevel, IsAFactorOfOneNote) {
+    const InstrumentModel model = compile_instrument(open_string(), 48000).value();
+    const TwoNotes plain = played_with(model, {});
+    ASSERT_GT(power_of(plain.first), 0);
+    for (const double level : {0.5, 2.0, most_note_level}) {
+        const TwoNotes scaled = played_with(model, {set_note_level(0, 28, level)});
+        EXPECT_NEAR(power_of(scaled.first), level * level * power_of(plain.first),
+                    1e-6 * power_of(scaled.first));
+        EXPECT_NEAR(power_of(scaled.second), power_of(plain.second), 1e-9 * power_of(plain.second)) << level;
+    }
+    EXPECT_LT(power_of(played_with(model, {set_note_level(0, 28, 0)}).first), 1e-9 * power_of(plain.first));
+}
+
+TEST(NotePan, IsAddedToThePlaceOfOneNote) {
+    const InstrumentModel model = compile_instrument(open_string(), 48000).value();
+    for (const double pan : {-1.0, -0.4, 0.7}) {
+        const TwoNotes moved = played_with(model, {set_note_pan(0, 28, pan)});
+        const test::Played expected = panned(model, pan);
+        EXPECT_NEAR(power_of(moved.first.left), power_of(expected.left), 1e-6 * power_of(expected)) << pan;
+        EXPECT_NEAR(power_of(moved.first.right), power_of(expected.right), 1e-6 * power_of(expected)) << pan;
+        EXPECT_NEAR(power_of(moved.second.left), power_of(moved.second.right), 1e-9 * power_of(moved.second));
+    }
+}
+
+TEST(NoteLevel, OtherNotesAndImpossibleValuesAreLeftAlone) {
+    const InstrumentModel model = compile_instrument(open_string(), 48000).value();
+    const TwoNotes plain = played_with(model, {});
+    const TwoNotes odd = played_with(
+        model, {set_note_level(0, 29, 0.1), set_note_level(0, 28, 0.1, 3), set_note_level(0, 28, -0.1),
+                set_note_level(0, 28, 4.1), set_note_level(0, 28, std::nan("")), set_note_pan(0, 28, 1.5),
+                set_note_pan(0, 28, std::nan("")), set_note_pan(0, every_key, 1)});
+    EXPECT_EQ(odd.first.left, plain.first.left);
+    EXPECT_EQ(odd.first.right, plain.first.right);
 }
 
 }  // namespace

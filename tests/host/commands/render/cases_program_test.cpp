@@ -216,7 +216,7 @@ TEST(Cases, BrokenFilesPlayWithANoticeAndAreRefusedStrictly) {
 TEST(Cases, MusicEndsWithItsLastMessage) {
     const auto played = play_case("17_eot_81_minutes", {"--preset", "guitar-steel"});
     EXPECT_LT(played.stats["sound_s"], 2.1);
-    EXPECT_NE(played.ran.err.find("end of track: 4888 s after the last message"), std::string::npos);
+    EXPECT_NE(played.ran.err.find("end of track: 4888 s after the last note"), std::string::npos);
 }
 
 TEST(Cases, AScoreHasAsManyFramesAsItLasts) {

@@ -105,7 +105,7 @@ TEST(Excerpt, NotesOfBeforeAreNotPlayedAndSaid) {
     const auto part = play({piece()}, exactly({"--start", "0.6", "--end", "1.9"}));
     EXPECT_EQ(largest(part.wav.channel(0)), 0);
     EXPECT_EQ(part.wav.channel(0).size(), rate_hz * 13 / 10);
-    EXPECT_NE(part.ran.err.find("notice: 1 notes began before --start and are not played"), std::string::npos)
+    EXPECT_NE(part.ran.err.find("notice: 1 note began before --start and is not played"), std::string::npos)
         << part.ran.err;
 }
 

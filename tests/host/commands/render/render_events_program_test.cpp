@@ -29,10 +29,11 @@ std::string note(int key, int velocity, const std::vector<Bytes>& before = {}) {
     return {bytes.begin(), bytes.end()};
 }
 
-Wav render(const std::string& midi, std::vector<std::string> options = {}) {
+Wav render(const std::string& midi, std::vector<std::string> options = {},
+           const std::string& preset = "bass-fretted") {
     const TemporaryFolder folder;
     std::vector<std::string> arguments{"render",   folder.write("in.mid", midi),
-                                       "--preset", "bass-fretted",
+                                       "--preset", preset,
                                        "-o",       folder.file("out.wav"),
                                        "--format", "float",
                                        "--tail",   "0"};
@@ -123,6 +124,36 @@ TEST(RenderEvents, AMapAndASettingMoveTheSameParameter) {
     const auto set = render(note(40, 60), {"--set", "palm_mute=0.5"});
     EXPECT_TRUE(mapped.data == set.data);
     EXPECT_FALSE(mapped.data == render(note(40, 60)).data);
+}
+
+TEST(RenderEvents, KeysThatNoStringHasAreNamed) {
+    const TemporaryFolder folder;
+    for (const auto& [key, named] : {std::pair{38, true}, std::pair{37, false}, std::pair{49, false}}) {
+        const Ran ran = jawari({"render", folder.write("in.mid", note(key, 60)), "--preset", "sitar", "-o",
+                                folder.file("out.wav"), "--tail", "0"});
+        EXPECT_EQ(ran.exit_code, 0);
+        EXPECT_EQ(
+            ran.err.find("sitar: no string has the keys 38; their notes are not played") != std::string::npos,
+            named)
+            << ran.err;
+    }
+}
+
+TEST(RenderEvents, StemsOfAnInstrumentWithoutPickupsAddUpToItsMonoSound) {
+    const TemporaryFolder folder;
+    const auto mix = render(note(60, 90), {"--stems", folder.file("stems.wav")}, "guitar-nylon");
+    const auto stems = read_wav(folder.file("stems.wav"));
+    ASSERT_EQ(stems.channels, 6);
+    const auto left = mix.channel(0), right = mix.channel(1);
+    std::size_t sounding = 0;
+    for (std::size_t s = 0; s < 6; ++s) sounding += energy(stems.channel(s)) > 1e-6 ? 1 : 0;
+    EXPECT_EQ(sounding, 1U);
+    const auto each = stems.samples();
+    for (std::size_t n = 0; n < left.size(); ++n) {
+        double sum = 0;
+        for (std::size_t s = 0; s < 6; ++s) sum += each[n * 6 + s];
+        ASSERT_NEAR(sum, (left[n] + right[n]) / 2, 1e-5) << n;
+    }
 }
 
 TEST(RenderEvents, StemsAddUpToTheMixOfABassWithoutABody) {

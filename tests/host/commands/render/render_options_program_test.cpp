@@ -186,6 +186,25 @@ TEST(RenderOptions, ProgramsChoosePresets) {
     EXPECT_NE(ignored.ran.err.find("program changes do nothing"), std::string::npos);
 }
 
+TEST(RenderOptions, ANotePresetsHaveNoStringForIsPlayedByANeighbour) {
+    const TemporaryFolder folder;
+    const std::string piano = notes({36, 60, 88, 20}, {{0xC0, 0}});  // the dulcimer has keys 50 to 86
+    const auto song = render(folder, piano, {});
+    ASSERT_EQ(song.stats["parts"].size(), 2U);
+    EXPECT_EQ(song.stats["notes"], 3);
+    EXPECT_EQ(song.stats["ignored_notes"], 1);
+    EXPECT_NE(song.ran.err.find("2 notes are beyond the keys of dulcimer; harpsichord plays them"),
+              std::string::npos)
+        << song.ran.err;
+    EXPECT_EQ(song.stats["lent_notes"],
+              nlohmann::json::parse(R"([{"preset": "dulcimer", "player": "harpsichord", "notes": 2}])"));
+    const auto alone = render(folder, piano, {"--only-strings"});
+    EXPECT_EQ(alone.stats["ignored_notes"], 3);
+    const auto chosen = render(folder, piano, {"--preset", "dulcimer"});
+    EXPECT_EQ(chosen.stats["ignored_notes"], 3);
+    EXPECT_EQ(chosen.stats["parts"].size(), 1U);
+}
+
 TEST(RenderOptions, StemsAreWrittenBesideTheMix) {
     const TemporaryFolder folder;
     render(folder, notes({28, 33}), with_bass({"--stems", folder.file("stems.wav")}));

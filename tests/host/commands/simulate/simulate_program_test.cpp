@@ -119,7 +119,7 @@ TEST(Simulate, FilesThatCannotBeReadOrWrittenAreExitCode4) {
         expect_one_line(simulate(arguments), 4, part);
     };
     refused({"nowhere"},
-            "nowhere: no such file, and no built-in scene of that name (built-in: lab/bass, lab/fretless, ");
+            "nowhere: no such file, and no built-in scene of that name (built-in: lab/bar, lab/bass, ");
     refused({folder.file(".")}, "Is a directory");
     refused({scene + "/x"}, "Not a directory");
     refused({scene, "--out", folder.file("no/out.csv")},

@@ -176,8 +176,70 @@ TEST(MidiMalformed, EachRepairIsNamedWithItsPlaceAndWhatWasAssumed) {
     Bytes rate = header_chunk(0, 1, 0xF628);  // 10 frames a second
     append(rate, chunk("MTrk", end(on)));
     EXPECT_EQ(repairs_of(rate), "1 events|byte 12: division 63016; 10 frames per second");
+    EXPECT_EQ(repairs_of(track(end({0, 0xFF, 0x21, 1, 200}))),
+              "1 events|byte 30 (track 1): MIDI port 200; it is left out");
+    EXPECT_EQ(repairs_of({0x1F, 0x8B, 8, 0, 0}),
+              "byte 0: a file packed by gzip (allowed: a MIDI file; gunzip unpacks it)");
     EXPECT_EQ(repairs_of(header_chunk(1, 1, 96)),
               "byte 14: no track (allowed: a track chunk (MTrk) after the header)");
+}
+
+/// A track that plays the key, and ends; its length says `wrong` bytes more.
+Bytes track_of_key(std::uint8_t key, int wrong = 0) {
+    Bytes whole = chunk("MTrk", {0, 0x90, key, 100, 10, 0x80, key, 0, 0, 0xFF, 0x2F, 0});
+    whole[7] = static_cast<std::uint8_t>(whole[7] + wrong);
+    return whole;
+}
+
+Bytes two_tracks(int type, int announced, int first_is_wrong, int second_is_wrong) {
+    Bytes bytes = header_chunk(static_cast<std::uint16_t>(type), static_cast<std::uint16_t>(announced), 96);
+    append(bytes, track_of_key(40, first_is_wrong));
+    append(bytes, track_of_key(50, second_is_wrong));
+    return bytes;
+}
+
+TEST(MidiMalformed, NoNoteIsLostToAWrongLength) {
+    EXPECT_EQ(repairs_of(two_tracks(1, 2, 0, 0)), "4 events");
+    EXPECT_EQ(repairs_of(two_tracks(1, 2, -12, 0)),  // a length of nothing: the writer forgot to fill it in
+              "4 events|byte 18 (track 1): chunk of 0 bytes; it goes on to the next track");
+    EXPECT_EQ(repairs_of(two_tracks(1, 2, -5, 0)),
+              "4 events|byte 18 (track 1): chunk of 7 bytes; it goes on to the next track");
+    EXPECT_EQ(repairs_of(two_tracks(1, 2, 0, -6)),
+              "4 events|byte 38 (track 2): chunk of 6 bytes; it goes on to the next track");
+    EXPECT_EQ(repairs_of(two_tracks(1, 2, 6, 0)),
+              "4 events|byte 18 (track 1): chunk of 18 bytes; it ends where the next track begins");
+    EXPECT_EQ(repairs_of(two_tracks(1, 2, 100, 0)),
+              "4 events|byte 18 (track 1): chunk of 112 bytes; it ends where the next track begins");
+    for (const int wrong : {-12, -5, 6, 100}) EXPECT_NE(failure_of(two_tracks(1, 2, wrong, 0)), "accepted");
+}
+
+TEST(MidiMalformed, ATrackMoreThanAnnouncedIsPlayedInEveryType) {
+    for (const int type : {0, 1})
+        EXPECT_EQ(repairs_of(two_tracks(type, 1, 0, 0)),
+                  "4 events|byte 10: 1 track announced; all 2 are played")
+            << type;
+    Bytes joined = header_chunk(0, 1, 96);  // two files, one after the other
+    append(joined, track_of_key(40));
+    append(joined, header_chunk(0, 1, 96));
+    append(joined, track_of_key(50));
+    EXPECT_EQ(repairs_of(joined), "4 events|byte 10: 1 track announced; all 2 are played");
+}
+
+TEST(MidiMalformed, MusicEndsWithItsLastNoteOrPedal) {
+    const auto seconds = [](const Bytes& late) {
+        Bytes track{0, 0x90, 40, 100, 96, 0x80, 40, 0};  // a tenth of a second
+        append_event(track, 960 * 40, late);             // 40 s later
+        append_event(track, 0, end_of_track);
+        const auto file = parse_midi(file_with_track(track), MidiReading::Lenient);
+        if (!file) return -1.0;
+        return static_cast<double>(file.value().end_time) /
+               static_cast<double>(file.value().time_units_per_s);
+    };
+    EXPECT_EQ(seconds({0xB0, 121, 0}), 0.1);
+    EXPECT_EQ(seconds({0xF0, 2, 1, 0xF7}), 0.1);
+    EXPECT_EQ(seconds({0xC0, 5}), 0.1);
+    EXPECT_EQ(seconds({0xB0, 64, 0}), 40.1);
+    EXPECT_EQ(seconds({0x80, 41, 0}), 40.1);
 }
 
 TEST(MidiMalformed, PatternsOfType2AreOneAfterTheOther) {

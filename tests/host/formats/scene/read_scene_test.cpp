@@ -247,8 +247,9 @@ INSTANTIATE_TEST_SUITE_P(
               "strings[0].probes[2].contact: -1 (allowed: a whole number from 0 to 4095)"},
         Wrong{"\"quantity\": \"velocity\"", "\"quantity\": \"speed\"",
               "strings[0].probes[1].quantity: \"speed\" (allowed: \"displacement\", \"velocity\", "
-              "\"contact_force\", "
-              "\"energy\")"},
+              "\"acceleration\", \"slope\", \"nut_force\", \"bridge_force\", \"mode_displacement\", "
+              "\"mode_velocity\", \"mode_energy\", \"contact_force\", \"hammer_force\", "
+              "\"hammer_displacement\", \"energy\")"},
         Wrong{"\"probes\": [", "\"frets\": {\"count\": 1000000000, \"height_m\": 0}, \"probes\": [",
               "strings[0].frets.count: 1000000000 (allowed: a whole number from 1 to 4094)"},
         Wrong{"\"probes\": [", "\"frets\": {\"count\": 3, \"height_m\": [0, 0]}, \"probes\": [",
@@ -305,8 +306,9 @@ TEST(InFileTerms, ContactsOfFretsAndNeckNameTheirOwnKeys) {
 }
 
 TEST(LoadScene, BuiltInScenesAreTheFilesOfThePresets) {
-    ASSERT_EQ(builtin_scene_names(), (std::vector<std::string>{"lab/bass", "lab/fretless", "lab/one-contact",
-                                                               "lab/tanpura", "smooth/bass"}));
+    ASSERT_EQ(builtin_scene_names(),
+              (std::vector<std::string>{"lab/bar", "lab/bass", "lab/fretless", "lab/one-contact", "lab/plate",
+                                        "lab/tanpura", "smooth/bass"}));
     for (const std::string& name : builtin_scene_names()) {
         const auto scene = load_scene(name);
         ASSERT_TRUE(scene) << scene.error().message;
@@ -325,7 +327,8 @@ TEST(LoadScene, AFileComesBeforeABuiltInScene) {
     const auto unknown = load_scene(folder.file("none.json"));
     ASSERT_FALSE(unknown);
     EXPECT_EQ(unknown.error().kind, ErrorKind::File);
-    EXPECT_NE(unknown.error().message.find("lab/bass, lab/fretless, lab/one-contact"), std::string::npos);
+    EXPECT_NE(unknown.error().message.find("lab/bar, lab/bass, lab/fretless, lab/one-contact"),
+              std::string::npos);
 }
 
 }  // namespace

@@ -62,21 +62,49 @@ TEST(TunFile, Version2IsReadByItsExactPitches) {
     EXPECT_NEAR(keys[69], 440, 1e-9);
 }
 
+TEST(TunFile, FormulasAloneAreComputed) {
+    // Scale Workshop's way of a scale that repeats: 12 just fifths down to an octave.
+    const auto keys =
+        parse_tun(
+            "[Scale Begin]\nFormatVersion= 200\n[Functional Tuning]\n"
+            "note 1=\"#=0 % 150\"\nnote 2=\"#=0 % 700\"\nnote 3=\"#>-3 % 1200.0 ~999\" ; repeats\n"
+            "note 60=\"! 261.6\"\n[Scale End]\n")
+            .value();
+    for (std::size_t key = 51; key < 69; ++key) {
+        const double octaves = std::floor((static_cast<double>(key) - 60) / 3);
+        const double cents[] = {0, 150, 700};
+        EXPECT_NEAR(keys[key], 261.6 * std::exp2(octaves + cents[key % 3] / 1200), 1e-9) << key;
+    }
+}
+
+TEST(TunFile, OfWhatEachKeyPlaysTheMappingIsAPart) {
+    const std::string mapping = "[Mapping]\nLoopSize = 2\nKeyboard 0 = 1\nKeyboard 1 = 0\n";
+    const auto mapped = parse_tun("[Functional Tuning]\nInitEqual=(69,440)\n" + mapping).value();
+    EXPECT_NEAR(mapped[68], equal_hz(69), 1e-9);
+    EXPECT_NEAR(mapped[69], equal_hz(68), 1e-9);
+    const auto exact = parse_tun("[Exact Tuning]\nnote 127=12700\n" + mapping).value();
+    EXPECT_NEAR(exact[68], equal_hz(68), 1e-9);
+}
+
 TEST(TunFile, WhatCannotBeReadIsRefusedWithItsLine) {
     const std::pair<std::string, std::string> wrong[] = {
-        {"", "end of file: no notes (allowed: notes in a section [Exact Tuning] or [Tuning])"},
+        {"",
+         "end of file: no notes (allowed: notes in a section [Exact Tuning], [Tuning] or [Functional "
+         "Tuning])"},
         {"[Tuning]\n", "end of file: no notes"},
         {"note 5=500\n", "end of file: no notes"},
-        {"[Functional Tuning]\nnote 12=\"#>-12 % 1200\"\n",
-         "line 1: \"[Functional Tuning] alone\" (allowed: notes in"},
+        {"[Functional Tuning]\nnote 12=\"#>-13 % 1200\"\n",
+         "line 2: \"note 12=\"#>-13 % 1200\"\" (allowed: a formula of ! # * / % + ~"},
+        {"[Functional Tuning]\nInitEqual=(128, 440)\n", "line 2: \"InitEqual=(128, 440)\" (allowed: (note, "},
         {"[Tuning]\nnote 1=x\n", "line 2: \"note 1=x\" (allowed: cents, -120000 to 120000)"},
         {"[Tuning]\nnote 1=nan\n", "line 2: "},
         {"[Exact Tuning]\nnote 1=1e300\n", "line 2: "},
         {"[Exact Tuning]\nbasefreq=0\nnote 1=1\n", "line 2: \"basefreq=0\" (allowed: 0.001 to 20000 Hz)"},
         {"[Scale Begin]\n[Scale End]\n[Scale Begin]\n",
          "line 3: \"[Scale Begin]\" (allowed: one scale in a file)"},
-        {"[Mapping]\nKeyboard 1 = 2\n[Tuning]\nnote 1=100\n",
-         "line 2: \"Keyboard 1 = 2\" (allowed: no key that plays"}};
+        {"[Mapping]\nKeyboard 1 = 128\n[Tuning]\nnote 1=100\n",
+         "line 2: \"Keyboard 1 = 128\" (allowed: 0 to 127)"},
+        {"[Mapping]\nLoopSize = -1\n", "line 2: \"LoopSize = -1\" (allowed: 0 to 128)"}};
     for (const auto& [text, message] : wrong) EXPECT_EQ(refusal(text).find(message), 0U) << refusal(text);
 }
 

@@ -11,6 +11,7 @@ namespace jawari::host {
 struct ProbeLabel {
     std::string
         name;  ///< `displacement_m@0.0863`, `contact_force_N@contact3`, `energy_J`; unique in the scene
+    std::string unit;  ///< `m`, `m/s`, ...
     Quantity quantity = Quantity::Displacement;
     std::size_t string = 0;  ///< index of the string it belongs to
 };

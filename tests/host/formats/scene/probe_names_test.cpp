@@ -1,4 +1,4 @@
-#include "commands/simulate/probe_names.h"
+#include "formats/scene/probe_names.h"
 
 #include <gtest/gtest.h>
 
