@@ -83,7 +83,7 @@ def unrolling():
 
 
 def spectra(curves, name, to_hz, floor_db=-90):
-    """Power of each curve in thirds of an octave is easier to compare than lines."""
+    """One spectrum for each (label, values, rate_hz) [dB of its highest line]."""
     figure, axes = pyplot.subplots(figsize=(8, 3.6))
     for (label, values, rate_hz), colour in zip(curves, (GREY, BLUE, RED)):
         power = np.abs(np.fft.rfft(values * np.hanning(len(values)))) ** 2
@@ -98,11 +98,7 @@ def spectra(curves, name, to_hz, floor_db=-90):
 
 
 def tanpura():
-    scene = jawari.Scene("lab/tanpura", duration_s=0.5)
-    with_bridge = jawari.simulate(scene, contacts=False)
-    del scene["strings"][0]["contacts"]
-    scene["strings"][0]["probes"] = [p for p in scene["strings"][0]["probes"] if p["quantity"] != "contact_force"]
-    without = jawari.simulate(scene, contacts=False)
+    with_bridge, without = example("tanpura").with_and_without_bridge(0.5)
     rate_hz = with_bridge.output_rate_hz
     spectra([("without the bridge", without[0], rate_hz), ("with the bridge", with_bridge[0], rate_hz)], "tanpura", 5000, -120)
 
@@ -110,14 +106,7 @@ def tanpura():
 def plate():
     curves = []
     for height_m, label in ((None, "no stop"), (-2e-5, "stop 20 um below")):
-        scene = jawari.Scene("lab/plate", duration_s=0.2)
-        string = scene["strings"][0]
-        if height_m is None:
-            del string["contacts"]
-            string["probes"] = [p for p in string["probes"] if p["quantity"] != "contact_force"]
-        else:
-            string["contacts"][0]["height_m"] = height_m
-        result = jawari.simulate(scene, contacts=False)
+        result = jawari.simulate(example("plate").with_stop(height_m, 0.2), contacts=False)
         curves.append((label, result.probes[:, 0], result.output_rate_hz))
     spectra(curves, "plate", 12000, -80)
 

@@ -17,17 +17,22 @@ def brightness(result):
     return power[np.fft.rfftfreq(len(velocity), 1 / result.output_rate_hz) > 2000].sum() / power.sum()
 
 
+def with_stop(height_m, duration_s):
+    """The built-in scene, its stop at another height; None: without it."""
+    scene = jawari.Scene("lab/plate", duration_s=duration_s)
+    plate = scene["strings"][0]
+    if height_m is None:
+        del plate["contacts"]
+        plate["probes"] = [probe for probe in plate["probes"] if probe["quantity"] != "contact_force"]
+    else:
+        plate["contacts"][0]["height_m"] = height_m
+    return scene
+
+
 def main(duration_s=0.1):
     shares = {}
     for height_m in (None, -2e-4, -2e-5, -2e-6):
-        scene = jawari.Scene("lab/plate", duration_s=duration_s)
-        plate = scene["strings"][0]
-        if height_m is None:
-            del plate["contacts"]
-            plate["probes"] = [probe for probe in plate["probes"] if probe["quantity"] != "contact_force"]
-        else:
-            plate["contacts"][0]["height_m"] = height_m
-        result = jawari.simulate(scene, contacts=False)
+        result = jawari.simulate(with_stop(height_m, duration_s), contacts=False)
         shares[height_m] = brightness(result)
         where = "no stop" if height_m is None else f"stop {-1e6 * height_m:.0f} um below"
         energy = result["energy_J"]

@@ -18,13 +18,18 @@ def centroid_hz(result):
     return (frequency_hz * spectrum).sum() / spectrum.sum()
 
 
-def main(duration_s=0.5):
+def with_and_without_bridge(duration_s):
+    """Results of the built-in scene as it is, and without its contacts."""
     scene = jawari.Scene("lab/tanpura", duration_s=duration_s)
     with_bridge = jawari.simulate(scene, contacts=False)
-    scene["strings"][0].pop("contacts", None)
-    scene["strings"][0].pop("neck", None)
-    scene["strings"][0]["probes"] = [p for p in scene["strings"][0]["probes"] if p["quantity"] != "contact_force"]
-    without = jawari.simulate(scene, contacts=False)
+    string = scene["strings"][0]
+    del string["contacts"]
+    string["probes"] = [probe for probe in string["probes"] if probe["quantity"] != "contact_force"]
+    return with_bridge, jawari.simulate(scene, contacts=False)
+
+
+def main(duration_s=0.5):
+    with_bridge, without = with_and_without_bridge(duration_s)
     print(f"spectral centroid: {centroid_hz(without):.0f} Hz without the bridge, {centroid_hz(with_bridge):.0f} Hz with it")
     return centroid_hz(with_bridge) / centroid_hz(without)
 

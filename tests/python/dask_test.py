@@ -29,6 +29,11 @@ def free_port():
         return listener.getsockname()[1]
 
 
+def stamps(folder):
+    """When each file there was last written."""
+    return {name: os.stat(os.path.join(folder, name)).st_mtime_ns for name in os.listdir(folder)}
+
+
 class Dask(unittest.TestCase):
     def start(self, folder, code, *arguments):
         with open(os.path.join(folder, f"dask-{len(self.processes)}.log"), "w") as log:
@@ -48,18 +53,33 @@ class Dask(unittest.TestCase):
         return self.start(folder, WORKER, address, "--nthreads", "1", "--no-nanny", "--no-dashboard",
                           "--local-directory", folder)  # fmt: skip
 
+    def scheduler(self, folder, port):
+        return self.start(folder, SCHEDULER, "--host", "127.0.0.1", "--port", str(port), "--no-dashboard")
+
+    def begin(self, path, address):
+        """A campaign that has finished a few of its runs, and the folder of these."""
+        running = subprocess.Popen(case.command(path, "--dask", address), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   text=True)  # fmt: skip
+        runs = os.path.join(os.path.dirname(path), "campaign", "runs")
+        while running.poll() is None and (not os.path.exists(runs) or len(os.listdir(runs)) < 3):
+            time.sleep(0.02)
+        return running, runs
+
+    def assert_whole(self, folder, settings):
+        """The table is that of a campaign that was left alone."""
+        with tempfile.TemporaryDirectory() as here:
+            self.assertEqual(case.run(case.write(here, **settings)).returncode, 0)
+            self.assertEqual(case.table(folder), case.table(here))
+
     def test_a_worker_killed_in_between_costs_nothing(self):
-        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder, tempfile.TemporaryDirectory() as here:
-            address = f"tcp://127.0.0.1:{free_port()}"
-            self.start(folder, SCHEDULER, "--host", "127.0.0.1", "--port", address.rsplit(":", 1)[1], "--no-dashboard")
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+            port = free_port()
+            address = f"tcp://127.0.0.1:{port}"
+            self.scheduler(folder, port)
             first, _ = self.worker(folder, address), self.worker(folder, address)
             settings = dict(scene=case.scene(0.2))
             path = case.write(folder, **settings)
-            running = subprocess.Popen(case.command(path, "--dask", address), stdout=subprocess.PIPE,
-                                       stderr=subprocess.PIPE, text=True)  # fmt: skip
-            runs = os.path.join(folder, "campaign", "runs")
-            while running.poll() is None and (not os.path.exists(runs) or len(os.listdir(runs)) < 3):
-                time.sleep(0.02)
+            running, runs = self.begin(path, address)
             before = len(os.listdir(runs))
             first.send_signal(signal.SIGKILL)
             self.worker(folder, address)
@@ -67,43 +87,37 @@ class Dask(unittest.TestCase):
             self.assertEqual(running.returncode, 0, said)
             self.assertIn(before, range(3, 45), "nothing was killed in between")
             self.assertRegex(said[0], "^45 of 45 runs")
-            self.assertEqual(case.run(case.write(here, **settings)).returncode, 0)
-            self.assertEqual(case.table(folder), case.table(here))
-            stamps = {f: os.stat(os.path.join(runs, f)).st_mtime_ns for f in os.listdir(runs)}
+            self.assert_whole(folder, settings)
+            done = stamps(runs)
             again = case.run(path, "--dask", address)
             self.assertTrue(re.match("45 of 45", again.stdout), again)
-            self.assertEqual(stamps, {f: os.stat(os.path.join(runs, f)).st_mtime_ns for f in os.listdir(runs)})
+            self.assertEqual(done, stamps(runs))
 
     def test_a_scheduler_killed_in_between_costs_what_was_running(self):
-        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder, tempfile.TemporaryDirectory() as here:
-            address = f"tcp://127.0.0.1:{free_port()}"
-            place = ("--host", "127.0.0.1", "--port", address.rsplit(":", 1)[1], "--no-dashboard")
-            scheduler = self.start(folder, SCHEDULER, *place)
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+            port = free_port()
+            address = f"tcp://127.0.0.1:{port}"
+            scheduler = self.scheduler(folder, port)
             workers = [self.worker(folder, address) for _ in range(2)]
             settings = dict(scene=case.scene(0.2))
             path = case.write(folder, **settings)
-            running = subprocess.Popen(case.command(path, "--dask", address), stdout=subprocess.PIPE,
-                                       stderr=subprocess.PIPE, text=True)  # fmt: skip
-            runs = os.path.join(folder, "campaign", "runs")
-            while running.poll() is None and (not os.path.exists(runs) or len(os.listdir(runs)) < 3):
-                time.sleep(0.02)
+            running, runs = self.begin(path, address)
             scheduler.send_signal(signal.SIGKILL)
             said = running.communicate(timeout=300)
             self.assertEqual(running.returncode, 4, said)
             self.assertRegex(said[1].splitlines()[-1], "^" + re.escape(address))
-            stamps = {f: os.stat(os.path.join(runs, f)).st_mtime_ns for f in os.listdir(runs)}
-            self.assertIn(len(stamps), range(3, 45), "nothing was killed in between")
+            done = stamps(runs)
+            self.assertIn(len(done), range(3, 45), "nothing was killed in between")
             for worker in workers:
                 worker.kill()
-            self.start(folder, SCHEDULER, *place)
+            self.scheduler(folder, port)
             for _ in range(2):
                 self.worker(folder, address)
             again = case.run(path, "--dask", address)
             self.assertEqual(again.returncode, 0, again.stderr)
-            self.assertEqual(case.run(case.write(here, **settings)).returncode, 0)
-            self.assertEqual(case.table(folder), case.table(here))
-            for name, stamp in stamps.items():  # nothing that was done is done again
-                self.assertEqual(os.stat(os.path.join(runs, name)).st_mtime_ns, stamp)
+            self.assert_whole(folder, settings)
+            now = stamps(runs)
+            self.assertEqual(done, {name: now[name] for name in done})  # nothing that was done is done again
 
 
 if __name__ == "__main__":

@@ -1,28 +1,17 @@
 // The JSON schema and the reader know the same keys.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
 #include "formats/preset/read_preset.h"
+#include "support/schema_keys.h"
 
 namespace jawari::host {
 namespace {
 
 using Json = nlohmann::json;
-
-Json load_schema() {
-    std::ifstream file(JAWARI_SOURCE_DIR "/presets/preset.schema.json");
-    return Json::parse(file);
-}
-
-const Json& resolved(const Json& schema, const Json& node) {
-    if (!node.is_object() || !node.contains("$ref")) return node;
-    return schema.at(Json::json_pointer(node["$ref"].get<std::string>().substr(1)));
-}
 
 const std::string everything = R"({
   "schema": "jawari.preset/2", "name": "x", "gain": 1, "contact_rate_min_hz": 200000, "mode_limit_hz": 9000,
@@ -44,35 +33,14 @@ struct Section {
     const char* in_preset;
 };
 
-/// The message about a preset that is `everything` with one more key in one section.
-std::string message_with(const Section& section, const std::string& key, Json preset) {
-    Json& at = preset[Json::json_pointer(section.in_preset)];
-    if (!at.contains(key)) at[key] = "?";
+std::set<std::string> keys_of_reader(const Section& section, Json preset) {
+    preset[Json::json_pointer(section.in_preset)]["no_such_key"] = "?";
     const auto read = read_preset(preset.dump(), "p");
-    return read ? std::string() : read.error().message;
-}
-
-/// The reader's own list of keys, as it prints it for a key that it does not know.
-std::set<std::string> keys_of_reader(const Section& section, const Json& preset) {
-    const std::string refusal = message_with(section, "no_such_key", preset);
-    EXPECT_NE(refusal.find("unknown key"), std::string::npos) << section.in_preset;
-    std::set<std::string> keys;
-    std::size_t begin = refusal.find("allowed: ") + 9;
-    while (begin < refusal.size()) {
-        const std::size_t end = std::min(refusal.find_first_of(",)", begin), refusal.size());
-        keys.insert(refusal.substr(begin, end - begin));
-        begin = end + 2;
-    }
-    return keys;
+    return test::keys_of_refusal(read ? std::string() : read.error().message);
 }
 
 std::set<std::string> keys_of_schema(const Section& section) {
-    const Json schema = load_schema();
-    const Json& object = resolved(schema, schema.at(Json::json_pointer(section.in_schema)));
-    std::set<std::string> keys;
-    for (const auto& [key, value] : object["properties"].items()) keys.insert(key);
-    keys.erase("comment");  // allowed everywhere, in no list
-    return keys;
+    return test::keys_of_schema(test::load_schema("preset.schema.json"), section.in_schema);
 }
 
 TEST(PresetSchema, KnowsTheKeysThatTheReaderKnows) {

@@ -1,24 +1,20 @@
 // The JSON schema and the reader know the same keys.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
 #include "formats/scene/read_scene.h"
 #include "support/run_program.h"
+#include "support/schema_keys.h"
 
 namespace jawari::host {
 namespace {
 
 using Json = nlohmann::json;
 
-Json load_schema() {
-    std::ifstream file(JAWARI_SOURCE_DIR "/presets/scene.schema.json");
-    return Json::parse(file);
-}
+const char* const schema_file = "scene.schema.json";
 
 const std::string scene_start = R"({"schema": "jawari.scene/1", "duration_s": 0.1, "strings": [)";
 const std::string everything = scene_start + R"({
@@ -47,31 +43,15 @@ struct Section {
     std::set<std::string> others = {};  ///< keys of the schema that other kinds of system have here
 };
 
-/// The reader's own list of keys, as it prints it for a key that it does not know.
 std::set<std::string> keys_of_reader(const Section& section) {
     Json scene = Json::parse(section.scene);
     scene[Json::json_pointer(section.in_scene)]["no_such_key"] = "?";
     const auto read = read_scene(scene.dump(), "s");
-    const std::string refusal = read ? std::string() : read.error().message;
-    EXPECT_NE(refusal.find("unknown key"), std::string::npos) << section.in_scene << refusal;
-    std::set<std::string> keys;
-    std::size_t begin = refusal.find("allowed: ") + 9;
-    while (begin < refusal.size()) {
-        const std::size_t end = std::min(refusal.find_first_of(",)", begin), refusal.size());
-        keys.insert(refusal.substr(begin, end - begin));
-        begin = end + 2;
-    }
-    return keys;
+    return test::keys_of_refusal(read ? std::string() : read.error().message);
 }
 
 std::set<std::string> keys_of_schema(const Section& section) {
-    const Json schema = load_schema();
-    const Json* object = &schema.at(Json::json_pointer(section.in_schema));
-    if (object->contains("$ref"))
-        object = &schema.at(Json::json_pointer((*object)["$ref"].get<std::string>().substr(1)));
-    std::set<std::string> keys;
-    for (const auto& [key, value] : (*object)["properties"].items()) keys.insert(key);
-    keys.erase("comment");  // allowed everywhere, in no list
+    std::set<std::string> keys = test::keys_of_schema(test::load_schema(schema_file), section.in_schema);
     for (const std::string& other : section.others) keys.erase(other);
     return keys;
 }
@@ -125,7 +105,7 @@ TEST(SceneSchema, KnowsTheKeysThatTheReaderKnows) {
 TEST(SceneSchema, IsPrintedByTheProgram) {
     const auto ran = test::jawari({"info", "--schema", "scene"});
     ASSERT_EQ(ran.exit_code, 0) << ran.err;
-    EXPECT_EQ(Json::parse(ran.out), load_schema());
+    EXPECT_EQ(Json::parse(ran.out), test::load_schema(schema_file));
     EXPECT_EQ(Json::parse(test::jawari({"info", "--schema", "preset"}).out)["title"], "jawari.preset/2");
     EXPECT_EQ(test::jawari({"info"}).exit_code, 2);
     EXPECT_EQ(test::jawari({"info", "--schema", "song"}).exit_code, 2);
