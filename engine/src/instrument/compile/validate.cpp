@@ -55,8 +55,8 @@ Check check_heights(const std::string& place, const InstrumentStringDescription&
 
 Check check_frets(const std::string& place, const InstrumentStringDescription& string,
                   const FretsDescription& frets) {
-    if (auto failure = check_count(place + "count", frets.count, 0, limits::frets)) return failure;
-    if (auto failure = check_value(place + "restitution", frets.restitution, 0, 1)) return failure;
+    if (auto failure = checks::check_count(place + "count", frets.count, 0, limits::frets)) return failure;
+    if (auto failure = checks::check(place + "restitution", frets.restitution, {0, 1})) return failure;
     if (auto failure = check_list_length(place + "semitones", frets.semitones.size(), frets.count))
         return failure;
     if (auto failure =
@@ -88,7 +88,8 @@ Check check_string(const std::string& place, const InstrumentDescription& instru
         return Failure{place + ".course", std::to_string(*s.course), "less than the number of strings"};
     }
     if (s.release_t60_s != 0) {
-        if (auto failure = check_value(place + ".release_t60_s", s.release_t60_s, 0.005, 60)) return failure;
+        if (auto failure = checks::check(place + ".release_t60_s", s.release_t60_s, {0.005, 60}))
+            return failure;
     }
     const FretsDescription& frets = frets_of(instrument, s);
     if (auto failure = check_frets(s.frets ? place + ".frets." : "frets.", s, frets)) return failure;
@@ -108,27 +109,27 @@ Check check_profile(const std::string& place, const ObstacleDescription& obstacl
                                                   {"height_m", parabola->height_m, -0.1, 0.1}});
     }
     const auto& corners = std::get<CornerProfile>(obstacle.profile);
-    if (auto failure = check_count(place + "profile_m", corners.size(), 1, limits::obstacle_points))
+    if (auto failure = checks::check_count(place + "profile_m", corners.size(), 1, limits::obstacle_points))
         return failure;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const std::string corner = indexed_place(place + "profile_m", i);
         const double from = i == 0 ? 0 : corners[i - 1].first;
         if (!(corners[i].first >= from && corners[i].first <= 5) || (i > 0 && corners[i].first == from))
             return Failure{corner + "[0]", printed(corners[i].first), "rising distances from 0 to 5"};
-        if (auto failure = check_value(corner + "[1]", corners[i].second, -0.1, 0.1)) return failure;
+        if (auto failure = checks::check(corner + "[1]", corners[i].second, {-0.1, 0.1})) return failure;
     }
     return {};
 }
 
 Check check_obstacles(const InstrumentDescription& instrument) {
     const auto& list = instrument.obstacles;
-    if (auto failure = check_count("obstacles", list.size(), 0, limits::obstacles)) return failure;
+    if (auto failure = checks::check_count("obstacles", list.size(), 0, limits::obstacles)) return failure;
     for (std::size_t i = 0; i < list.size(); ++i) {
         const std::string place = indexed_place("obstacles", i) + ".";
-        if (auto failure = check_count(place + "points", list[i].points, 0, limits::obstacle_points))
+        if (auto failure = checks::check_count(place + "points", list[i].points, 0, limits::obstacle_points))
             return failure;
         if (auto failure = check_profile(place, list[i])) return failure;
-        if (auto failure = check_value(place + "restitution", list[i].restitution, 0, 1)) return failure;
+        if (auto failure = checks::check(place + "restitution", list[i].restitution, {0, 1})) return failure;
         if (auto failure = check_string_list(place + "strings", list[i].strings, instrument.strings.size()))
             return failure;
     }
@@ -177,22 +178,11 @@ Check check_quality(const std::string& prefix, const QualityDescription& quality
 
 }  // namespace
 
-Check check_value(const std::string& place, double value, double low, double high) {
-    if (value >= low && value <= high) return {};
-    return Failure{place, printed(value), printed(low) + " to " + printed(high)};
-}
-
 Check check_values(const std::string& prefix, std::initializer_list<CheckedValue> values) {
     for (const CheckedValue& v : values) {
-        if (auto failure = check_value(prefix + v.name, v.value, v.low, v.high)) return failure;
+        if (auto failure = checks::check(prefix + v.name, v.value, {v.low, v.high})) return failure;
     }
     return {};
-}
-
-Check check_count(const std::string& place, std::size_t count, std::size_t low, std::size_t high) {
-    if (count >= low && count <= high) return {};
-    return Failure{place, std::to_string(count) + " entries",
-                   std::to_string(low) + " to " + std::to_string(high)};
 }
 
 Check check_place(const std::string& place, const StringPlace& value, double shortest_m) {
@@ -211,15 +201,15 @@ namespace jawari {
 
 std::optional<Failure> validate(const InstrumentDescription& instrument, double output_rate_hz) {
     using namespace detail;
-    if (auto failure = check_value("output rate", output_rate_hz, 8000, 1e6)) return failure;
-    if (auto failure = check_value("gain", instrument.gain, 0, 1e6)) return failure;
+    if (auto failure = checks::check("output rate", output_rate_hz, {8000, 1e6})) return failure;
+    if (auto failure = checks::check("gain", instrument.gain, {0, 1e6})) return failure;
     if (auto failure = check_quality("", instrument.quality)) return failure;
     if (instrument.studio) {
         if (auto failure = check_quality("studio.", *instrument.studio)) return failure;
     }
     if (auto failure = check_tuning(instrument)) return failure;
     const std::size_t strings = instrument.strings.size();
-    if (auto failure = check_count("strings", strings, 1, limits::instrument_strings)) return failure;
+    if (auto failure = checks::check_count("strings", strings, 1, limits::instrument_strings)) return failure;
     double shortest_m = 5;
     for (std::size_t i = 0; i < strings; ++i) {
         const InstrumentStringDescription& string = instrument.strings[i];

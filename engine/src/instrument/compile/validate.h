@@ -7,7 +7,7 @@
 
 #include "jawari/instrument/description.h"
 #include "jawari/result.h"
-#include "string/compile/validate.h"
+#include "string/compile/checks.h"
 
 namespace jawari {
 
@@ -21,9 +21,7 @@ struct CheckedValue {
 };
 
 /// Fails unless low <= value <= high; also for NaN.
-Check check_value(const std::string& place, double value, double low, double high);
 Check check_values(const std::string& prefix, std::initializer_list<CheckedValue> values);
-Check check_count(const std::string& place, std::size_t count, std::size_t low, std::size_t high);
 /// Exciters, hand, pickups and body; `shortest_m`: the shortest speaking length.
 Check validate_players(const InstrumentDescription& instrument, double shortest_m);
 Check validate_output(const InstrumentDescription& instrument, double shortest_m);

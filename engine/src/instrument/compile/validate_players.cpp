@@ -68,7 +68,7 @@ Check check_hand(const HandDescription& hand, double shortest_m) {
 
 Check validate_players(const InstrumentDescription& instrument, double shortest_m) {
     const auto& exciters = instrument.exciters;
-    if (auto failure = check_count("exciters", exciters.size(), 1, limits::exciters)) return failure;
+    if (auto failure = checks::check_count("exciters", exciters.size(), 1, limits::exciters)) return failure;
     for (std::size_t i = 0; i < exciters.size(); ++i) {
         if (auto failure = check_exciter(indexed_place("exciters", i), exciters[i], shortest_m))
             return failure;
@@ -78,7 +78,7 @@ Check validate_players(const InstrumentDescription& instrument, double shortest_
 
 Check validate_output(const InstrumentDescription& instrument, double shortest_m) {
     const auto& pickups = instrument.pickups;
-    if (auto failure = check_count("pickups", pickups.size(), 0, limits::pickups)) return failure;
+    if (auto failure = checks::check_count("pickups", pickups.size(), 0, limits::pickups)) return failure;
     for (std::size_t i = 0; i < pickups.size(); ++i) {
         const std::string place = indexed_place("pickups", i);
         if (pickups[i].quantity != PickupQuantity::BridgeForce) {
@@ -91,7 +91,7 @@ Check validate_output(const InstrumentDescription& instrument, double shortest_m
             return failure;
     }
     const auto& body = instrument.body;
-    if (auto failure = check_count("body", body.size(), 0, limits::body_modes)) return failure;
+    if (auto failure = checks::check_count("body", body.size(), 0, limits::body_modes)) return failure;
     for (std::size_t i = 0; i < body.size(); ++i) {
         if (auto failure = check_values(indexed_place("body", i) + ".",
                                         {{"frequency_hz", body[i].frequency_hz, 5, 20000},
