@@ -35,9 +35,10 @@ TEST_P(Seeds, KeepEveryInvariant) {
 INSTANTIATE_TEST_SUITE_P(Ranges, Seeds, testing::Range<std::uint64_t>(0, 6),
                          [](const auto& range) { return "From" + std::to_string(1000 * range.param); });
 
+// Not the first thousand: it begins with two strings at 8 MHz that lie on 42 points, a minute of work.
 INSTANTIATE_TEST_SUITE_P(LaboratoryRanges, Seeds,
-                         testing::Range<std::uint64_t>(first_laboratory_seed / 1000,
-                                                       first_laboratory_seed / 1000 + 3),
+                         testing::Range<std::uint64_t>(first_laboratory_seed / 1000 + 1,
+                                                       first_laboratory_seed / 1000 + 4),
                          [](const auto& range) { return "From" + std::to_string(1000 * range.param); });
 
 TEST(Seeds, PlayTheSameWhenPlayedAgain) {
