@@ -1,13 +1,17 @@
 #include "describe.h"
 
+#include <iterator>
 #include <sstream>
 #include <variant>
+
+#include "formats/scene/words.h"
 
 namespace jawari::stress {
 namespace {
 
 void describe_modes(const PhysicalModes& modes, std::ostream& out) {
-    static constexpr const char* losses[] = {"no loss", "valette", "two decay times"};
+    static constexpr const char* losses[] = {"no loss", "valette", "decay times"};
+    static_assert(std::size(losses) == std::variant_size_v<decltype(modes.damping)>);
     out << modes.count << " modes, " << modes.tension_N << " N, B " << modes.inharmonicity << ", "
         << losses[modes.damping.index()];
 }
@@ -18,11 +22,12 @@ void describe_modes(const ModeTable& table, std::ostream& out) {
 
 void describe_start(const InitialCondition& initial, std::ostream& out) {
     out << (initial.start == Start::Exact ? ", exact start " : ", backward start ");
-    if (const auto* pluck = std::get_if<Pluck>(&initial.shape)) {
-        out << "from a pluck of " << pluck->height_m << " m at " << pluck->position_m << " m";
-    } else {
-        out << (std::holds_alternative<AtRest>(initial.shape) ? "from rest" : "from velocities");
-    }
+    static constexpr const char* shapes[] = {"rest", "a pluck", "modal displacements and velocities",
+                                             "a profile"};
+    static_assert(std::size(shapes) == std::variant_size_v<decltype(initial.shape)>);
+    out << "from " << shapes[initial.shape.index()];
+    if (const auto* pluck = std::get_if<Pluck>(&initial.shape))
+        out << " of " << pluck->height_m << " m at " << pluck->position_m << " m";
 }
 
 void describe_string(const StringDescription& string, std::ostream& out) {
@@ -33,10 +38,9 @@ void describe_string(const StringDescription& string, std::ostream& out) {
     if (!string.contacts.empty())
         out << ", the first at " << string.contacts[0].position_m << " m, height "
             << string.contacts[0].height_m << " m, e " << string.contacts[0].restitution;
-    static constexpr const char* quantities[] = {"displacement", "velocity", "contact force", "energy"};
-    out << ", probes:";
-    for (const ProbeDescription& probe : string.probes)
-        out << " " << quantities[static_cast<std::size_t>(probe.quantity)];
+    out << ", " << string.springs.size() << " springs, " << string.hammers.size() << " hammers, "
+        << string.forces.size() << " forces, probes:";
+    for (const ProbeDescription& probe : string.probes) out << " " << host::word(probe.quantity);
 }
 
 }  // namespace
