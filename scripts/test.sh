@@ -95,8 +95,9 @@ if $full; then
     # Oracles, soaks, pitches and long references check numbers, which the release run has done; here only memory and threads are
     # at stake.
     numbers='RenderPitch|TwoRenders|TheDemoStrikes|LatticeReference|StepCoefficients.*AtRandom|EqualsRender|ManyContacts|OnAnArch'
-    stage "build (asan-ubsan)" build asan-ubsan jawari engine_tests host_tests thread_tests plugin_tests rivals_tests \
-        play_tests stress_tests jawari_fuzzers &&
+    numbers+='|^Cases\.[^B]|LowRates|SeveralPiecesFollow|CompliantContact\.(TheEnergy|OnAString)'
+    stage "build (asan-ubsan)" build asan-ubsan jawari engine_tests host_tests thread_tests plugin_tests play_tests stress_tests \
+        jawari_fuzzers &&
         tests asan-ubsan -LE 'peers|presets|examples|live|hosts' -E "$numbers" && stage "fuzzing" fuzz
     stage "build (tsan)" build tsan jawari thread_tests plugin_tests && tests tsan -L 'threads|plugin' -E "$numbers"
 fi
