@@ -78,6 +78,23 @@ inline void add_parameter_settings(CLI::App& app, std::vector<std::pair<Paramete
         ->check(parameter_setting());
 }
 
+/// `what`: as of whole_between().
+template <class T>
+CLI::Option* add_whole(CLI::App& app, const std::string& name, std::optional<T>& target, double lowest,
+                       double highest, const std::string& what, const std::string& help) {
+    return app
+        .add_option_function<std::string>(
+            name, [&target](const std::string& text) { target = static_cast<T>(*parse_number(text)); }, help)
+        ->check(whole_between(lowest, highest, what));
+}
+
+/// A flag that says `value`.
+inline void add_flag(CLI::App& app, const std::string& name, std::optional<bool>& target, bool value,
+                     const std::string& help) {
+    app.add_flag_callback(
+        name, [&target, value] { target = value; }, help);
+}
+
 /// An option that takes one of some words.
 template <class T>
 CLI::Option* add_choice(CLI::App& app, const std::string& name, std::optional<T>& target,

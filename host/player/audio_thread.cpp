@@ -1,10 +1,10 @@
 #include "player/audio_thread.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <utility>
 
+#include "base/decibels.h"
 #include "jawari/denormals.h"
 
 namespace jawari::host {
@@ -23,7 +23,7 @@ StageSettings settings_of_stage(const LiveSettings& settings) {
 
 std::optional<Limiter> limiter_of(const LiveSettings& settings) {
     if (!settings.limiter_dbfs) return std::nullopt;
-    return make_limiter(std::pow(10.0, *settings.limiter_dbfs / 20), settings.rate_hz);
+    return make_limiter(factor_of(*settings.limiter_dbfs), settings.rate_hz);
 }
 
 }  // namespace

@@ -37,23 +37,23 @@ std::uint32_t rate_of(const py::dict& settings) {
 host::RenderOptions render_options(const py::dict& settings) {
     host::RenderOptions options;
     options.rate_hz = rate_of(settings);
-    options.gain_db = settings["gain_db"].cast<double>();
-    check_range("gain_db", options.gain_db, -200, 200);
+    options.instrument.gain_db = settings["gain_db"].cast<double>();
+    check_range("gain_db", *options.instrument.gain_db, -200, 200);
     if (!settings["tail_s"].is_none()) {
         options.tail_s = settings["tail_s"].cast<double>();
         check_range("tail_s", *options.tail_s, 0, host::longest_tail_s);
     }
     if (!settings["seed"].is_none()) options.seed = settings["seed"].cast<std::uint64_t>();
     if (!settings["limiter_dbfs"].is_none()) {
-        options.limiter_dbfs = settings["limiter_dbfs"].cast<double>();
-        check_range("limiter_dbfs", *options.limiter_dbfs, -40, 0);
+        options.instrument.limiter_dbfs = settings["limiter_dbfs"].cast<double>();
+        check_range("limiter_dbfs", *options.instrument.limiter_dbfs, -40, 0);
     }
     const auto words = host::quality_words();
     const auto quality = words.find(settings["quality"].cast<std::string>());
     if (quality == words.end())
         raise(host::usage_error("quality", host::in_quotes(settings["quality"].cast<std::string>()),
                                 "live, reference, studio"));
-    options.quality = quality->second;
+    options.instrument.quality = quality->second;
     return options;
 }
 

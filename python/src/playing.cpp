@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "base/decibels.h"
 #include "cli/contact_warnings.h"
 #include "commands/render/ensemble.h"
 #include "commands/render/humanise.h"
@@ -31,7 +32,7 @@ struct Casting {
 };
 
 host::Outcome<Casting> cast(const PresetSource& preset, const host::RenderOptions& options) {
-    auto settings = host::instrument_settings(options);
+    auto settings = host::instrument_settings(options.instrument, options.rate_hz);
     if (!settings) return settings.error();
     Casting casting{settings.value(), {}, {}};
     if (preset.text) {
@@ -99,8 +100,8 @@ host::Outcome<Played> play(const host::MidiFile& file, const PresetSource& prese
     host::end_notes(score);
     const auto instruments = instruments_of(score, casting.value());
     if (!instruments) return instruments.error();
-    host::Ensemble ensemble =
-        host::make_ensemble(score, instruments.value(), false, std::pow(10.0, options.gain_db / 20));
+    host::Ensemble ensemble = host::make_ensemble(score, instruments.value(), false,
+                                                  host::factor_of(options.instrument.gain_db.value_or(0)));
     Played played;
     for (const host::MidiRepair& repair : file.repairs) played.notices.push_back(host::text_of(repair));
     for (std::string& line :
@@ -115,7 +116,7 @@ host::Outcome<Played> play(const host::MidiFile& file, const PresetSource& prese
         return poll();
     };
     const host::ScoreSettings settings{static_cast<double>(options.rate_hz), options.tail_s,
-                                       options.silence_dbfs, options.limiter_dbfs, false};
+                                       options.silence_dbfs, options.instrument.limiter_dbfs, false};
     const auto rendered = host::render_score(ensemble, score, settings, sink);
     if (!rendered) return rendered.error();
     std::vector<host::NamedCounters> parts;

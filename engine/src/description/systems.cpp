@@ -145,8 +145,8 @@ std::vector<PlateMode> lowest_modes(const Plate& plate) {
                             (12 * (1 - square(plate.poissons_ratio)));
     const double scale =
         std::numbers::pi / 2 * std::sqrt(rigidity / (plate.density_kg_per_m3 * plate.thickness_m));
-    const auto [a, b] = plate.size_m;
-    const auto frequency = [&, a = a, b = b](std::size_t m, std::size_t n) {
+    const double a = plate.size_m[0], b = plate.size_m[1];
+    const auto frequency = [&](std::size_t m, std::size_t n) {
         return scale * (square(static_cast<double>(m) / a) + square(static_cast<double>(n) / b));
     };
     // In m^2/a^2 + n^2/b^2 < r^2 there are about pi a b r^2/4 - (a + b) r/2 modes: r is raised

@@ -28,6 +28,18 @@ void prefer(std::optional<T>& own, const std::optional<T>& other) {
     if (!own) own = other;
 }
 
+void prefer(InstrumentOptions& own, const InstrumentOptions& other) {
+    prefer(own.quality, other.quality);
+    prefer(own.gain_db, other.gain_db);
+    prefer(own.limiter_dbfs, other.limiter_dbfs);
+    prefer(own.tuning, other.tuning);
+    prefer(own.keyboard_map, other.keyboard_map);
+    prefer(own.move_frets, other.move_frets);
+    prefer(own.midi_map, other.midi_map);
+    prefer(own.guitar_channel, other.guitar_channel);
+    own.parameters.insert(own.parameters.begin(), other.parameters.begin(), other.parameters.end());
+}
+
 /// A text that is one of some words.
 std::string word(ObjectReader& reader, std::string_view key, const std::vector<std::string>& allowed) {
     std::string text = reader.text(key);
@@ -53,6 +65,8 @@ std::uint32_t whole(ObjectReader& reader, std::string_view key, std::size_t lowe
 }
 
 void read_devices(ObjectReader& reader, PlayOptions& options) {
+    if (reader.has("preset")) options.preset = name(reader, "preset");
+    if (reader.has("fixed_quality")) options.fixed_quality = reader.flag("fixed_quality");
     if (reader.has("audio")) options.audio = word(reader, "audio", with_auto(audio_system_words()));
     if (reader.has("audio_device")) options.audio_device = name(reader, "audio_device");
     if (reader.has("midi")) options.midi = word(reader, "midi", with_auto(midi_system_words()));
@@ -65,22 +79,20 @@ void read_devices(ObjectReader& reader, PlayOptions& options) {
     if (reader.has("lock_memory")) options.lock_memory = reader.flag("lock_memory");
 }
 
-void read_sound(ObjectReader& reader, PlayOptions& options) {
-    if (reader.has("preset")) options.preset = name(reader, "preset");
+void read_instrument(ObjectReader& reader, InstrumentOptions& instrument) {
     if (reader.has("quality"))
-        options.quality =
+        instrument.quality =
             reader.choice<Quality>("quality", {{name_of(Quality::Live), Quality::Live},
                                                {name_of(Quality::Studio), Quality::Studio},
                                                {name_of(Quality::Reference), Quality::Reference}});
-    if (reader.has("fixed_quality")) options.fixed_quality = reader.flag("fixed_quality");
-    if (reader.has("gain_db")) options.gain_db = reader.number("gain_db", {-120, 60});
-    if (reader.has("limiter_dbfs")) options.limiter_dbfs = reader.number("limiter_dbfs", {-40, 0});
-    if (reader.has("tuning")) options.tuning = name(reader, "tuning");
-    if (reader.has("keyboard_map")) options.keyboard_map = name(reader, "keyboard_map");
-    if (reader.has("move_frets")) options.move_frets = reader.flag("move_frets");
-    if (reader.has("midi_map")) options.midi_map = name(reader, "midi_map");
+    if (reader.has("gain_db")) instrument.gain_db = reader.number("gain_db", {-120, 60});
+    if (reader.has("limiter_dbfs")) instrument.limiter_dbfs = reader.number("limiter_dbfs", {-40, 0});
+    if (reader.has("tuning")) instrument.tuning = name(reader, "tuning");
+    if (reader.has("keyboard_map")) instrument.keyboard_map = name(reader, "keyboard_map");
+    if (reader.has("move_frets")) instrument.move_frets = reader.flag("move_frets");
+    if (reader.has("midi_map")) instrument.midi_map = name(reader, "midi_map");
     if (reader.has("guitar_channel"))
-        options.guitar_channel = static_cast<int>(whole(reader, "guitar_channel", 1, 16));
+        instrument.guitar_channel = static_cast<int>(whole(reader, "guitar_channel", 1, 16));
 }
 
 void read_control(ObjectReader& reader, PlayOptions& options) {
@@ -91,7 +103,7 @@ void read_control(ObjectReader& reader, PlayOptions& options) {
     if (reader.has("monitor")) options.monitor = reader.flag("monitor");
 }
 
-void read_parameters(ObjectReader& reader, PlayOptions& options) {
+void read_parameters(ObjectReader& reader, InstrumentOptions& instrument) {
     const json::Value* value = reader.find("parameters");
     if (value == nullptr) return;
     std::vector<std::string_view> keys;
@@ -99,7 +111,7 @@ void read_parameters(ObjectReader& reader, PlayOptions& options) {
     ObjectReader parameters(*value, reader.path_of("parameters"), keys, reader.problems());
     for (const ParameterDeclaration& each : parameter_table())
         if (parameters.has(each.key))
-            options.parameters.emplace_back(each.id, parameters.number(each.key, {each.low, each.high}));
+            instrument.parameters.emplace_back(each.id, parameters.number(each.key, {each.low, each.high}));
 }
 
 }  // namespace
@@ -112,22 +124,14 @@ PlayOptions merge(PlayOptions own, const PlayOptions& other) {
     prefer(own.midi_in, other.midi_in);
     prefer(own.rate_hz, other.rate_hz);
     prefer(own.frames, other.frames);
-    prefer(own.quality, other.quality);
     prefer(own.fixed_quality, other.fixed_quality);
-    prefer(own.gain_db, other.gain_db);
-    prefer(own.limiter_dbfs, other.limiter_dbfs);
-    prefer(own.tuning, other.tuning);
-    prefer(own.keyboard_map, other.keyboard_map);
-    prefer(own.move_frets, other.move_frets);
-    prefer(own.midi_map, other.midi_map);
-    prefer(own.guitar_channel, other.guitar_channel);
+    prefer(own.instrument, other.instrument);
     prefer(own.osc_port, other.osc_port);
     prefer(own.osc_host, other.osc_host);
     prefer(own.shell, other.shell);
     prefer(own.monitor, other.monitor);
     prefer(own.retry, other.retry);
     prefer(own.lock_memory, other.lock_memory);
-    own.parameters.insert(own.parameters.begin(), other.parameters.begin(), other.parameters.end());
     return own;
 }
 
@@ -150,9 +154,9 @@ Outcome<PlayOptions> read_play_config(const std::string& text, const std::string
     reader.choice<int>("schema", {{schema, 1}});
     PlayOptions options;
     read_devices(reader, options);
-    read_sound(reader, options);
+    read_instrument(reader, options.instrument);
     read_control(reader, options);
-    read_parameters(reader, options);
+    read_parameters(reader, options.instrument);
     if (problems.any()) return invalid_input(file, *problems.first());
     return options;
 }

@@ -6,12 +6,12 @@
 #include <thread>
 #include <utility>
 
+#include "base/decibels.h"
 #include "base/text.h"
-#include "formats/tuning/tuning.h"
+#include "cli/instrument_options.h"
 #include "instrument/preset_library.h"
 #include "instrument/program_presets.h"
 #include "midi/guitar_mode.h"
-#include "midi/read_midi_map.h"
 
 namespace jawari::host {
 
@@ -19,31 +19,9 @@ namespace {
 
 constexpr std::uint8_t medium_release = 64;
 
-Outcome<InstrumentSettings> instrument_settings(const PlayOptions& options, double rate_hz) {
-    InstrumentSettings settings;
-    settings.output_rate_hz = rate_hz;
-    settings.quality = options.quality.value_or(Quality::Live);
-    settings.move_frets = options.move_frets.value_or(false);
-    settings.lower_qualities = !options.fixed_quality.value_or(false);
-    if (!options.tuning) return settings;
-    const auto tuning = load_tuning(*options.tuning, options.keyboard_map.value_or(""));
-    if (!tuning) return tuning.error();
-    settings.tuning = tuning.value();
-    return settings;
-}
-
 std::string first_preset(const PlayOptions& options) {
     const std::string preset = options.preset.value_or(play_defaults::preset);
     return preset == play_defaults::preset ? play_defaults::first_preset : preset;
-}
-
-double gain_factor(double gain_db) {
-    return std::pow(10.0, gain_db / 20);
-}
-
-/// The first channel of guitar mode from 1, 0 without it: as `jawari render` has it.
-int guitar_channel(const PlayOptions& options, const InstrumentDescription& instrument) {
-    return options.guitar_channel.value_or(instrument.play == PlayMode::Guitar ? 1 : 0);
 }
 
 Outcome<LiveSettings> live_settings(const PlayOptions& options, const InstrumentDescription& instrument,
@@ -51,20 +29,11 @@ Outcome<LiveSettings> live_settings(const PlayOptions& options, const Instrument
     LiveSettings settings;
     settings.rate_hz = rate_hz;
     settings.most_frames = frames;
-    settings.gain = gain_factor(options.gain_db.value_or(0));
-    settings.limiter_dbfs = options.limiter_dbfs;
+    settings.gain = factor_of(options.instrument.gain_db.value_or(0));
+    settings.limiter_dbfs = options.instrument.limiter_dbfs;
     settings.overload.enabled = !options.fixed_quality.value_or(false);
-    for (const auto& [parameter, value] : options.parameters)
-        if (parameter == ParameterId::BendRange)
-            settings.interpreter.bend_range_semitones = value;
-        else
-            settings.interpreter.initial[static_cast<std::size_t>(parameter)] = value;
-    if (options.midi_map) {
-        const auto map = load_midi_map(*options.midi_map);
-        if (!map) return map.error();
-        settings.interpreter.map = map.value();
-    }
-    const int channel = guitar_channel(options, instrument);
+    if (auto error = set_interpreter(options.instrument, settings.interpreter)) return *error;
+    const int channel = guitar_channel(options.instrument, instrument);
     if (channel > 0) {
         if (auto error = set_guitar_mode(instrument, channel - 1, settings.interpreter)) return *error;
     }
@@ -75,20 +44,20 @@ Outcome<LiveSettings> live_settings(const PlayOptions& options, const Instrument
 
 Outcome<std::unique_ptr<PlayControl>> PlayControl::create(const PlayOptions& options, double rate_hz,
                                                           std::size_t frames) {
-    auto instruments = instrument_settings(options, rate_hz);
+    auto instruments = instrument_settings(options.instrument, rate_hz);
     if (!instruments) return instruments.error();
+    instruments.value().lower_qualities = !options.fixed_quality.value_or(false);
     const auto preset = load_with(first_preset(options), instruments.value());
     if (!preset) return preset.error();
     const auto live = live_settings(options, preset.value().instrument, rate_hz, frames);
     if (!live) return live.error();
 
     std::unique_ptr<PlayControl> control(new PlayControl(live.value(), std::move(instruments.value())));
-    control->guitar_channel_ = guitar_channel(options, preset.value().instrument);
+    control->guitar_channel_ = guitar_channel(options.instrument, preset.value().instrument);
     control->follows_programs_ = options.preset.value_or(play_defaults::preset) == play_defaults::preset;
     control->port_ = control->player_.add_port();
     if (auto error = control->play_preset(first_preset(options))) return *error;
-    for (const auto& [parameter, value] : options.parameters) {
-        if (parameter == ParameterId::BendRange) continue;
+    for (const auto& [parameter, value] : engine_parameters(options.instrument)) {
         if (auto error = control->set_parameter(parameter, value)) return *error;
     }
     return control;
@@ -136,7 +105,7 @@ MaybeError PlayControl::set_parameter(ParameterId parameter, double value) {
 MaybeError PlayControl::set_gain(double gain_db) {
     LiveCommand command;
     command.kind = LiveCommand::Kind::SetGain;
-    command.value = gain_factor(gain_db);
+    command.value = factor_of(gain_db);
     return send(command);
 }
 

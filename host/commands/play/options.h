@@ -4,12 +4,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "base/error.h"
-#include "instrument/quality.h"
-#include "jawari/parameters.h"
+#include "cli/instrument_options.h"
 
 namespace jawari::host {
 
@@ -22,15 +19,8 @@ struct PlayOptions {
     std::optional<std::string> midi_in;  ///< auto, virtual, number or part of a name
     std::optional<std::uint32_t> rate_hz;
     std::optional<std::uint32_t> frames;
-    std::optional<Quality> quality;
     std::optional<bool> fixed_quality;  ///< never lowered under load
-    std::optional<double> gain_db;
-    std::optional<double> limiter_dbfs;
-    std::optional<std::string> tuning, keyboard_map;
-    std::optional<bool> move_frets;
-    std::optional<std::string> midi_map;
-    std::optional<int> guitar_channel;  ///< 1 to 16
-    std::vector<std::pair<ParameterId, double>> parameters;
+    InstrumentOptions instrument;
     std::optional<std::uint16_t> osc_port;
     std::optional<std::string> osc_host;
     std::optional<bool> shell;

@@ -8,19 +8,17 @@
 #include "base/output_file.h"
 #include "base/sound_file.h"
 #include "cli/command_line.h"
+#include "cli/instrument_options.h"
 #include "commands/play/device_list.h"
 #include "commands/play/options.h"
 #include "commands/play/play.h"
 #include "commands/play/verbs.h"
 #include "devices/audio_devices.h"
 #include "devices/midi_receiver.h"
-#include "formats/words/quality_words.h"
 
 namespace jawari::host {
 
 namespace {
-
-const std::map<std::string, Quality> qualities = quality_words();
 
 std::string footer() {
     std::vector<std::string> verbs;
@@ -44,21 +42,6 @@ std::string footer() {
            "line;\n"
            "3 invalid input file; 4 a file cannot be read or written; 5 internal error; 6 audio or MIDI "
            "device.";
-}
-
-template <class T>
-CLI::Option* add_whole(CLI::App& app, const std::string& name, std::optional<T>& target, double lowest,
-                       double highest, const std::string& what, const std::string& help) {
-    return app
-        .add_option_function<std::string>(
-            name, [&target](const std::string& text) { target = static_cast<T>(*parse_number(text)); }, help)
-        ->check(whole_between(lowest, highest, what));
-}
-
-void add_flag(CLI::App& app, const std::string& name, std::optional<bool>& target, bool value,
-              const std::string& help) {
-    app.add_flag_callback(
-        name, [&target, value] { target = value; }, help);
 }
 
 std::map<std::string, std::string> system_words(const std::vector<std::string>& words) {
@@ -97,33 +80,10 @@ void add_sound_options(CLI::App& app, PlayOptions& options) {
                    "Preset file or name, default auto: guitar-steel, then as program changes select")
         ->type_name("PRESET|auto")
         ->check(some_name());
-    add_choice(app, "--quality", options.quality, qualities,
-               "Resolution of the strings, default live (the values of the preset)");
     add_flag(app, "--fixed-quality", options.fixed_quality, true,
              "Never lower the quality under load: late blocks are then heard as gaps");
-    app.add_option("--gain", options.gain_db, "Gain relative to the preset, -120 to 60 dB")
-        ->type_name("DB")
-        ->check(number_between(-120, 60));
-    app.add_option("--limiter", options.limiter_dbfs,
-                   "Keeps the sound below this level, -40 to 0, with a delay of 2 ms; default off")
-        ->type_name("DBFS")
-        ->check(number_between(-40, 0));
-    add_parameter_settings(app, options.parameters);
-    app.add_option("--tuning", options.tuning,
-                   "Pitches of all keys: a Scala scale, with Ableton's lines or without, or an AnaMark file")
-        ->type_name("FILE.scl|FILE.ascl|FILE.tun")
-        ->check(some_name());
-    app.add_option("--keyboard-map", options.keyboard_map, "Scala keyboard map of the scale")
-        ->type_name("FILE.kbm")
-        ->check(some_name());
-    add_flag(app, "--move-frets", options.move_frets, true, "Move the frets to the notes of the tuning");
-    app.add_option("--midi-map", options.midi_map, "Assigns controllers to parameters (docs/formats/midi.md)")
-        ->type_name("FILE.json")
-        ->check(some_name());
-    add_whole(app, "--guitar-mode", options.guitar_channel, 1, 16, "",
-              "One string per channel: this channel plays the last string of the preset, the next channel "
-              "the one before")
-        ->type_name("CHANNEL");
+    add_instrument_options(app, options.instrument,
+                           "Keeps the sound below this level, -40 to 0, with a delay of 2 ms; default off");
 }
 
 void add_control_options(CLI::App& app, PlayOptions& options) {

@@ -63,15 +63,8 @@ void lock_memory(const Session::Say& say) {
 }  // namespace
 
 MaybeError check_options(const PlayOptions& options) {
-    if (!options.tuning && options.keyboard_map)
-        return usage_error("--keyboard-map", *options.keyboard_map, "only with --tuning");
-    if (!options.tuning && options.move_frets.value_or(false))
-        return usage_error("--move-frets", "given", "only with --tuning");
-    const std::string preset = options.preset.value_or(play_defaults::preset);
-    if (options.guitar_channel && preset == play_defaults::preset)
-        return usage_error("--guitar-mode", std::to_string(*options.guitar_channel),
-                           "only with --preset NAME");
-    return std::nullopt;
+    return check_dependencies(options.instrument,
+                              options.preset.value_or(play_defaults::preset) == play_defaults::preset);
 }
 
 Session::Session(PlayOptions options, Say say)

@@ -32,9 +32,7 @@ MaybeError Session::check_recording(const std::string& sound, const std::string&
         return usage_error("record", sound, "a name that ends in .wav: takes grow in place");
     FilePlan files(true);  // whether there may be an older take is the recorder's affair
     files.add_input("preset", preset_path(control_->preset()).value_or(""));
-    files.add_input("--tuning", options_.tuning.value_or(""));
-    files.add_input("--keyboard-map", options_.keyboard_map.value_or(""));
-    files.add_input("--midi-map", options_.midi_map.value_or(""));
+    add_inputs(options_.instrument, files);
     files.add_input("--config", options_.config.empty() ? default_config_path() : options_.config);
     if (auto error = files.add_output("record", sound, FileContent::Sound)) return error;
     return files.add_output("record", midi, FileContent::Midi);

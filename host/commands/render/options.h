@@ -4,12 +4,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/sound_file.h"
-#include "instrument/quality.h"
-#include "jawari/parameters.h"
+#include "cli/instrument_options.h"
 
 namespace jawari::host {
 
@@ -28,24 +26,16 @@ struct RenderOptions {
     bool strict = false;        ///< files that depart from the standard are refused; warnings are an error
     std::uint32_t rate_hz = 48000;
     std::optional<SampleFormat> format;  ///< nothing: PCM of 24 bits
-    double gain_db = 0;
-    std::optional<double> tail_s;  ///< after the last event; nothing: until the sound has died away
-    double silence_dbfs = -90;     ///< what counts as died away
-    std::optional<Quality> quality;
-    std::optional<std::uint64_t> seed;  ///< of humanise(); nothing: exactly as written
-    std::optional<double> limiter_dbfs;
-    std::string tuning;        ///< a .scl file; empty: as the presets are tuned
-    std::string keyboard_map;  ///< a .kbm file; empty: the default map
-    bool move_frets = false;
-    std::string midi_map;         ///< JSON; empty: the default map
+    std::optional<double> tail_s;        ///< after the last event; nothing: until the sound has died away
+    double silence_dbfs = -90;           ///< what counts as died away
+    std::optional<std::uint64_t> seed;   ///< of humanise(); nothing: exactly as written
+    InstrumentOptions instrument;
     double start_s = 0;           ///< what comes before it is not played, but its settings hold
     std::optional<double> end_s;  ///< what is down is let go there; nothing: at the end of the music
     double tempo_percent = 100;   ///< of the file's tempo
     std::vector<int> mute, solo;  ///< channels, 1 to 16; solo: no others
     int transpose_semitones = 0;  ///< of all notes but drums
-    int guitar_channel = 0;       ///< 1 to 16; 0: no guitar mode
-    std::vector<std::pair<ParameterId, double>> parameters;  ///< in each parameter's unit
-    unsigned jobs = 0;                                       ///< 0: one a processor
+    unsigned jobs = 0;            ///< 0: one a processor
 };
 
 inline constexpr const char* automatic_preset = "auto";

@@ -57,17 +57,6 @@ MaybeError check_times(const RenderOptions& options) {
     return std::nullopt;
 }
 
-MaybeError check_dependencies(const RenderOptions& options) {
-    if (options.tuning.empty() && !options.keyboard_map.empty())
-        return usage_error("--keyboard-map", options.keyboard_map, "only with --tuning");
-    if (options.tuning.empty() && options.move_frets)
-        return usage_error("--move-frets", "given", "only with --tuning");
-    if (options.guitar_channel > 0 && options.preset == automatic_preset)
-        return usage_error("--guitar-mode", std::to_string(options.guitar_channel),
-                           "only with --preset NAME");
-    return std::nullopt;
-}
-
 /// One job for a sound file; in a folder each WAV file has its MIDI file's name.
 Outcome<std::vector<RenderJob>> jobs_of(const RenderOptions& options) {
     if (options.out == "-" || !is_folder(options.out))
@@ -123,9 +112,7 @@ void add_preset_inputs(const RenderOptions& options, FilePlan& files) {
 MaybeError plan_files(const RenderOptions& options, const std::vector<RenderJob>& jobs, FilePlan& files) {
     for (const std::string& midi : options.midi) files.add_input("MIDI", midi);
     add_preset_inputs(options, files);
-    files.add_input("--tuning", options.tuning);
-    files.add_input("--keyboard-map", options.keyboard_map);
-    files.add_input("--midi-map", options.midi_map);
+    add_inputs(options.instrument, files);
     for (const RenderJob& job : jobs) {
         if (auto error = check_container("--out", job.out, options)) return error;
         if (auto error = files.add_output("--out", job.out, content_of_sound(job.out))) return error;
@@ -238,13 +225,14 @@ MaybeError print_results(const std::vector<RenderJob>& jobs, const RenderOptions
 }  // namespace
 
 MaybeError render(const RenderOptions& options) {
-    for (const auto check : {check_several, check_dependencies, check_times})
+    for (const auto check : {check_several, check_times})
         if (auto error = check(options)) return error;
+    if (auto error = check_dependencies(options.instrument, options.preset == automatic_preset)) return error;
     const auto jobs = jobs_of(options);
     if (!jobs) return jobs.error();
     FilePlan files(options.overwrite);
     if (auto error = plan_files(options, jobs.value(), files)) return error;
-    const auto settings = instrument_settings(options);
+    const auto settings = instrument_settings(options.instrument, options.rate_hz);
     if (!settings) return settings.error();
     const auto rules = score_rules(options, settings.value());
     if (!rules) return rules.error();

@@ -7,9 +7,9 @@
 
 #include "base/text.h"
 #include "cli/command_line.h"
+#include "cli/instrument_options.h"
 #include "commands/render/options.h"
 #include "commands/render/render.h"
-#include "formats/words/quality_words.h"
 #include "instrument/preset_library.h"
 
 namespace jawari::host {
@@ -18,7 +18,6 @@ namespace {
 
 const std::map<std::string, SampleFormat> formats{
     {"pcm16", SampleFormat::Pcm16}, {"pcm24", SampleFormat::Pcm24}, {"float", SampleFormat::Float}};
-const std::map<std::string, Quality> qualities = quality_words();
 
 std::string footer() {
     std::vector<std::string> names;
@@ -95,33 +94,17 @@ void add_sound_options(CLI::App& app, RenderOptions& options) {
     app.add_option("--silence", options.silence_dbfs, "Level below which --tail auto ends, default -90 dBFS")
         ->type_name("DBFS")
         ->check(number_between(-180, -20));
-    app.add_option("--gain", options.gain_db, "Gain relative to the preset, -120 to 60 dB")
-        ->type_name("DB")
-        ->check(number_between(-120, 60));
-    app.add_option("--limiter", options.limiter_dbfs,
-                   "Keeps the mix below this level, -40 to 0, and reports when it acts; default off")
-        ->type_name("DBFS")
-        ->check(number_between(-40, 0));
-    add_choice(app, "--quality", options.quality, qualities,
-               "Resolution of the strings, default live (the values of the preset)");
+    add_instrument_options(app, options.instrument,
+                           "Keeps the mix below this level, -40 to 0, and reports when it acts; default off");
 }
 
 void add_music_options(CLI::App& app, RenderOptions& options) {
-    add_parameter_settings(app, options.parameters);
-    app.add_option("--tuning", options.tuning,
-                   "Pitches of all keys: a Scala scale, with Ableton's lines or without, or an AnaMark file")
-        ->type_name("FILE.scl|FILE.ascl|FILE.tun")
-        ->check(some_name());
-    app.add_option("--keyboard-map", options.keyboard_map, "Scala keyboard map of the scale")
-        ->type_name("FILE.kbm")
-        ->check(some_name());
     app.add_flag("--only-strings", options.only_strings,
                  "With auto: programs without strings are silent instead of played by the nearest preset");
     app.add_flag(
         "--strict", options.strict,
         "Refuse MIDI files that depart from the standard instead of repairing what they lack; warnings are "
         "an error (exit code 7), the outputs are written nevertheless");
-    app.add_flag("--move-frets", options.move_frets, "Move the frets to the notes of the tuning");
     app.add_option_function<std::string>(
            "--start", [&options](const std::string& text) { options.start_s = *parse_time(text); },
            "Leave out what comes before; its programs, controllers and bends hold, its notes do not")
@@ -154,18 +137,6 @@ void add_music_options(CLI::App& app, RenderOptions& options) {
            "Semitones by which all notes but drums are moved, -48 to 48")
         ->type_name("SEMITONES")
         ->check(whole_between(-48, 48, ""));
-    app.add_option("--midi-map", options.midi_map, "Assigns controllers to parameters (docs/formats/midi.md)")
-        ->type_name("FILE.json")
-        ->check(some_name());
-    app.add_option_function<std::string>(
-           "--guitar-mode",
-           [&options](const std::string& text) {
-               options.guitar_channel = static_cast<int>(*parse_number(text));
-           },
-           "One string per channel: this channel plays the last string of the preset, the next channel the "
-           "one before")
-        ->type_name("CHANNEL")
-        ->check(whole_between(1, 16, ""));
     app.add_option_function<std::string>(
            "--seed",
            [&options](const std::string& text) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/cpu_clock.h"
+#include "base/decibels.h"
 #include "base/input_file.h"
 #include "base/interrupt.h"
 #include "base/output_file.h"
@@ -108,10 +109,10 @@ std::string title_of(const RenderJob& job) {
 
 SoundTags tags_of(const RenderJob& job, const RenderContext& context) {
     const RenderOptions& options = context.options;
-    std::string comment =
-        "preset " + options.preset + ", quality " + name_of(options.quality.value_or(Quality::Live));
-    if (!options.tuning.empty()) comment += ", tuning " + file_name(options.tuning);
-    if (!options.keyboard_map.empty()) comment += ", keyboard map " + file_name(options.keyboard_map);
+    std::string comment = "preset " + options.preset + ", quality " +
+                          name_of(options.instrument.quality.value_or(Quality::Live));
+    if (const auto& tuning = options.instrument.tuning) comment += ", tuning " + file_name(*tuning);
+    if (const auto& map = options.instrument.keyboard_map) comment += ", keyboard map " + file_name(*map);
     if (options.seed) comment += ", seed " + std::to_string(*options.seed);
     return {printable(title_of(job)), printable(comment)};
 }
@@ -227,7 +228,7 @@ void add_level_messages(const RenderJob& job, const RenderOptions& options, cons
             "warning: " + name + ": " +
             formatted("%llu samples beyond full scale %s, peak %+.1f dBFS; use --gain %.0f",
                       static_cast<unsigned long long>(sound.clipped), kept ? "kept" : "clipped", peak,
-                      std::floor(options.gain_db - peak - 1)));
+                      std::floor(options.instrument.gain_db.value_or(0) - peak - 1)));
     }
     if (sound.limited_frames > 0)
         result.messages.push_back("notice: " + name + ": " +
@@ -273,8 +274,8 @@ MaybeError finish(const RenderJob& job, const RenderOptions& options, const std:
 }
 
 ScoreSettings score_settings(const RenderOptions& options) {
-    return {static_cast<double>(options.rate_hz), options.tail_s, options.silence_dbfs, options.limiter_dbfs,
-            options.mono};
+    return {static_cast<double>(options.rate_hz), options.tail_s, options.silence_dbfs,
+            options.instrument.limiter_dbfs, options.mono};
 }
 
 /// Appends the piece to what is written already. `most_frames`: of all pieces.
@@ -285,7 +286,7 @@ MaybeError play_piece(const RenderJob& job, const RenderContext& context, std::u
     const auto instruments = load_instruments(piece.score, context.instruments, piece.stats);
     if (!instruments) return instruments.error();
     Ensemble ensemble = make_ensemble(piece.score, instruments.value(), !options.stems.empty(),
-                                      std::pow(10.0, options.gain_db / 20));
+                                      factor_of(options.instrument.gain_db.value_or(0)));
     if (auto error = open_stems(job, context, most_frames, ensemble.stem_names, outputs)) return error;
     add_notices(piece, ensemble, context, result);
     SoundSink sink = sink_to(outputs, options);

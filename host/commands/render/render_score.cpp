@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "base/cpu_clock.h"
+#include "base/decibels.h"
 #include "base/interrupt.h"
 #include "commands/render/options.h"
 #include "instrument/limiter.h"
@@ -19,15 +20,11 @@ std::uint64_t to_frames(double seconds, double rate_hz) {
     return static_cast<std::uint64_t>(std::llround(seconds * rate_hz));
 }
 
-double factor(double decibels) {
-    return std::pow(10.0, decibels / 20);
-}
-
 /// Watches for the end of an automatic tail.
 class SilenceDetector {
   public:
     SilenceDetector(double level_dbfs, double rate_hz)
-        : level_(factor(level_dbfs)), wanted_(to_frames(silence_s, rate_hz)) {}
+        : level_(factor_of(level_dbfs)), wanted_(to_frames(silence_s, rate_hz)) {}
 
     void add(std::span<const double> left, std::span<const double> right) {
         for (std::size_t n = 0; n < left.size(); ++n) {
@@ -49,7 +46,7 @@ class MixPath {
     MixPath(const ScoreSettings& settings, const SoundSink& sink, ScoreStatistics& statistics)
         : sink_(sink), statistics_(statistics), mono_(settings.mono) {
         if (settings.limiter_dbfs)
-            limiter_ = make_limiter(factor(*settings.limiter_dbfs), settings.output_rate_hz);
+            limiter_ = make_limiter(factor_of(*settings.limiter_dbfs), settings.output_rate_hz);
     }
 
     MaybeError pass(std::vector<double>& left, std::vector<double>& right) {

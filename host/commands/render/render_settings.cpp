@@ -1,6 +1,5 @@
 #include "commands/render/render_settings.h"
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -8,11 +7,9 @@
 #include <vector>
 
 #include "commands/render/preset_keys.h"
-#include "formats/tuning/tuning.h"
 #include "instrument/preset_library.h"
 #include "instrument/program_presets.h"
 #include "midi/guitar_mode.h"
-#include "midi/read_midi_map.h"
 
 namespace jawari::host {
 
@@ -23,18 +20,6 @@ std::optional<std::string> general_midi_preset(int bank, int program, bool only_
     if (!preset && !only_strings && bank != numbered_bank) preset = nearest_preset(program);
     if (!preset || !preset_exists(std::string(*preset))) return std::nullopt;
     return std::string(*preset);
-}
-
-/// The engine reads the other parameters; the bend range belongs to the interpreter.
-void set_parameters(const RenderOptions& options, ScoreRules& rules) {
-    for (const auto& [parameter, value] : options.parameters) {
-        if (parameter == ParameterId::BendRange) {
-            rules.interpreter.bend_range_semitones = value;
-        } else {
-            rules.parameters.emplace_back(parameter, value);
-            rules.interpreter.initial[static_cast<std::size_t>(parameter)] = value;
-        }
-    }
 }
 
 /// Bit c: channel c, from 0.
@@ -51,18 +36,6 @@ unsigned muted_channels(const RenderOptions& options) {
 
 }  // namespace
 
-Outcome<InstrumentSettings> instrument_settings(const RenderOptions& options) {
-    InstrumentSettings settings;
-    settings.output_rate_hz = options.rate_hz;
-    settings.quality = options.quality.value_or(Quality::Live);
-    settings.move_frets = options.move_frets;
-    if (options.tuning.empty()) return settings;
-    const auto tuning = load_tuning(options.tuning, options.keyboard_map);
-    if (!tuning) return tuning.error();
-    settings.tuning = tuning.value();
-    return settings;
-}
-
 Outcome<ScoreRules> score_rules(const RenderOptions& options, const InstrumentDescription* instrument) {
     ScoreRules rules;
     rules.preset = options.preset;
@@ -74,21 +47,17 @@ Outcome<ScoreRules> score_rules(const RenderOptions& options, const InstrumentDe
     };
     rules.excerpt.begin = frame(options.start_s);
     if (options.end_s) rules.excerpt.end = frame(*options.end_s);
-    set_parameters(options, rules);
-    if (!options.midi_map.empty()) {
-        const auto map = load_midi_map(options.midi_map);
-        if (!map) return map.error();
-        rules.interpreter.map = map.value();
-    }
+    rules.parameters = engine_parameters(options.instrument);
+    if (auto error = set_interpreter(options.instrument, rules.interpreter)) return *error;
     if (instrument == nullptr) {
         rules.choose = [only_strings = options.only_strings](int bank, int program) {
             return general_midi_preset(bank, program, only_strings);
         };
         return rules;
     }
-    if (options.guitar_channel > 0 || instrument->play == PlayMode::Guitar) {
-        const int first = std::max(1, options.guitar_channel) - 1;
-        if (auto error = set_guitar_mode(*instrument, first, rules.interpreter)) return *error;
+    const int channel = guitar_channel(options.instrument, *instrument);
+    if (channel > 0) {
+        if (auto error = set_guitar_mode(*instrument, channel - 1, rules.interpreter)) return *error;
     }
     return rules;
 }

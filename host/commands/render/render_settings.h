@@ -1,4 +1,4 @@
-// What the options of a rendering mean for its instruments and for the reading of its MIDI files.
+// What the options of a rendering mean for the reading of its MIDI files.
 #pragma once
 
 #include "base/error.h"
@@ -7,9 +7,6 @@
 #include "instrument/instrument_cache.h"
 
 namespace jawari::host {
-
-/// Reads the tuning's files, if there are any.
-Outcome<InstrumentSettings> instrument_settings(const RenderOptions& options);
 
 /// The preset of the options is loaded, unless programs choose presets. Reads the map's file, if there is
 /// one.

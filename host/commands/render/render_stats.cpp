@@ -105,7 +105,7 @@ void describe_job(const std::string& midi, const RenderOptions& options, const S
                   const Ensemble& ensemble, RenderStats& stats) {
     stats.midi = midi;
     stats.preset = options.preset;
-    stats.quality = name_of(options.quality.value_or(Quality::Live));
+    stats.quality = name_of(options.instrument.quality.value_or(Quality::Live));
     stats.output_rate_hz = options.rate_hz;
     stats.score_s = static_cast<double>(score.end_frame) / options.rate_hz;
     stats.silent_notes = score.silent_notes;

@@ -28,16 +28,16 @@ TEST(PlayConfig, ReadsEveryKey) {
     EXPECT_EQ(all.midi_in, "virtual");
     EXPECT_EQ(all.rate_hz, 44100U);
     EXPECT_EQ(all.frames, 64U);
-    EXPECT_EQ(all.quality, Quality::Studio);
+    EXPECT_EQ(all.instrument.quality, Quality::Studio);
     EXPECT_EQ(all.fixed_quality, true);
-    EXPECT_EQ(all.gain_db, -3);
-    EXPECT_EQ(all.limiter_dbfs, -1);
-    EXPECT_EQ(all.tuning, "a.scl");
-    EXPECT_EQ(all.keyboard_map, "a.kbm");
-    EXPECT_EQ(all.move_frets, true);
-    EXPECT_EQ(all.midi_map, "m.json");
-    EXPECT_EQ(all.guitar_channel, 2);
-    EXPECT_EQ(all.parameters, (std::vector<std::pair<ParameterId, double>>{{ParameterId::Pan, 0.5},
+    EXPECT_EQ(all.instrument.gain_db, -3);
+    EXPECT_EQ(all.instrument.limiter_dbfs, -1);
+    EXPECT_EQ(all.instrument.tuning, "a.scl");
+    EXPECT_EQ(all.instrument.keyboard_map, "a.kbm");
+    EXPECT_EQ(all.instrument.move_frets, true);
+    EXPECT_EQ(all.instrument.midi_map, "m.json");
+    EXPECT_EQ(all.instrument.guitar_channel, 2);
+    EXPECT_EQ(all.instrument.parameters, (std::vector<std::pair<ParameterId, double>>{{ParameterId::Pan, 0.5},
                                                                            {ParameterId::PalmMute, 1}}));
     EXPECT_EQ(all.osc_port, 7770);
     EXPECT_EQ(all.osc_host, "0.0.0.0");
@@ -67,18 +67,18 @@ TEST(PlayConfig, TheCommandLineHasTheLastWord) {
     PlayOptions own;
     own.preset = "biwa";
     own.retry = true;
-    own.parameters = {{ParameterId::Pan, 1}};
+    own.instrument.parameters = {{ParameterId::Pan, 1}};
     PlayOptions file;
     file.preset = "sitar";
     file.frames = 64;
     file.retry = false;
-    file.parameters = {{ParameterId::Pan, -1}, {ParameterId::Volume, 0.5}};
+    file.instrument.parameters = {{ParameterId::Pan, -1}, {ParameterId::Volume, 0.5}};
     const PlayOptions merged = merge(own, file);
     EXPECT_EQ(merged.preset, "biwa");
     EXPECT_EQ(merged.frames, 64U);
     EXPECT_EQ(merged.retry, true);
-    EXPECT_EQ(merged.parameters.back(), (std::pair{ParameterId::Pan, 1.0}));  // the last one wins
-    EXPECT_EQ(merged.parameters.size(), 3U);
+    EXPECT_EQ(merged.instrument.parameters.back(), (std::pair{ParameterId::Pan, 1.0}));  // the last one wins
+    EXPECT_EQ(merged.instrument.parameters.size(), 3U);
 }
 
 }  // namespace
