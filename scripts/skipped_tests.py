@@ -9,7 +9,7 @@ import sys
 import xml.etree.ElementTree
 
 # What a test says: Python's "skipped: REASON", or GoogleTest's line after the place of GTEST_SKIP().
-REASON = re.compile(r"^skipped: (.*)$|^\S+:\d+: Skipped\n(.*)$", re.MULTILINE)
+REASON = re.compile(r"^(?:skipped|SKIPPED): (.*)$|^\S+:\d+: Skipped\n(.*)$", re.MULTILINE)
 
 
 def main():

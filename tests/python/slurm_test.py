@@ -59,6 +59,17 @@ PartitionName=all Nodes={host} Default=YES State=UP
 """
 
 
+def slurm_version():
+    """(24, 11), of `slurm-wlm 24.11.5`."""
+    words = subprocess.run(["slurmd", "-V"], capture_output=True, text=True,
+                           env={**os.environ, "PATH": os.environ["PATH"] + ":/usr/sbin:/sbin"}).stdout.split()  # fmt: skip
+    return tuple(int(number) for number in words[-1].split(".")[:2]) if words else (0, 0)
+
+
+# Nothing here limits what a job may take; a container may have no control groups at all. Slurm 22 does not know the word.
+CGROUPS = "CgroupPlugin=disabled\n" if slurm_version() >= (23, 11) else ""
+
+
 class Slurm(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="slurm")
@@ -73,6 +84,8 @@ class Slurm(unittest.TestCase):
         with open(configuration, "w") as file:
             host = socket.gethostname().split(".")[0]
             file.write(CONFIGURATION.format(host=host, ports=free_ports(2), folder=self.folder))
+        with open(os.path.join(self.folder, "cgroup.conf"), "w") as file:
+            file.write(CGROUPS)
         self.environment = {**os.environ, "SLURM_CONF": configuration, "PATH": os.environ["PATH"] + ":/usr/sbin:/sbin"}
         munge = [f"--{name}={self.folder}/munge.{name}" for name in ("socket",)]
         munge += [f"--{name}-file={self.folder}/munge.{name}" for name in ("key", "pid", "log", "seed")]
