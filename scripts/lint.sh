@@ -19,7 +19,10 @@ case "${1:-}" in
     *) echo "lint.sh: unknown argument '$1' (allowed: --fix-format, --analyze)" >&2; exit 2 ;;
 esac
 
-mapfile -t sources < <(find benchmarks docs engine host python tests -name '*.cpp' -o -name '*.h' | sort)
+# files_in FOLDER...: sources and headers; not what pip has left in python/build.
+files_in() { find "$@" -path python/build -prune -o \( -name '*.cpp' -o -name '*.h' \) -print | sort; }
+
+mapfile -t sources < <(files_in benchmarks docs engine host python tests)
 if $fix; then
     clang-format -i "${sources[@]}"
     exit 0
@@ -66,7 +69,7 @@ if [[ $unity == ON ]]; then
     configure lint ON
     mapfile -t units < <(units_of lint)
 else
-    mapfile -t units < <(find engine host python -name '*.cpp' | sort)
+    mapfile -t units < <(files_in engine host python | grep '\.cpp$')
 fi
 export -f tidy lint_unit
 export checks_text="${checks[*]}"

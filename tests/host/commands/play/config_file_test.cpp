@@ -37,8 +37,8 @@ TEST(PlayConfig, ReadsEveryKey) {
     EXPECT_EQ(all.instrument.move_frets, true);
     EXPECT_EQ(all.instrument.midi_map, "m.json");
     EXPECT_EQ(all.instrument.guitar_channel, 2);
-    EXPECT_EQ(all.instrument.parameters, (std::vector<std::pair<ParameterId, double>>{{ParameterId::Pan, 0.5},
-                                                                           {ParameterId::PalmMute, 1}}));
+    EXPECT_EQ(all.instrument.parameters, (std::vector<std::pair<ParameterId, double>>{
+                                             {ParameterId::Pan, 0.5}, {ParameterId::PalmMute, 1}}));
     EXPECT_EQ(all.osc_port, 7770);
     EXPECT_EQ(all.osc_host, "0.0.0.0");
     EXPECT_EQ(all.shell, false);
