@@ -93,7 +93,7 @@ if $full; then
     stage "lint" scripts/lint.sh
     stage "other instruction sets" scripts/check_neon.sh
     # Oracles, soaks, pitches and long references check numbers, which the release run has done; here only memory and threads are
-    # at stake.
+    # at stake. Of the cases those with broken files stay (Cases.BrokenFiles...).
     numbers='RenderPitch|TwoRenders|TheDemoStrikes|LatticeReference|StepCoefficients.*AtRandom|EqualsRender|ManyContacts|OnAnArch'
     numbers+='|^Cases\.[^B]|LowRates|SeveralPiecesFollow|CompliantContact\.(TheEnergy|OnAString)'
     stage "build (asan-ubsan)" build asan-ubsan jawari engine_tests host_tests thread_tests plugin_tests play_tests stress_tests \
