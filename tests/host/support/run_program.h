@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdint>
+#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
@@ -71,7 +72,20 @@ inline bool has_ended(pid_t child) {
            info.si_pid == child;
 }
 
+/// Whether the process has said what a signal does to it; before that, a busy machine's first second, it
+/// would only die of it.
+inline bool catches_or_ignores(pid_t child, int signal) {
+    std::ifstream status("/proc/" + std::to_string(child) + "/status");
+    std::uint64_t masks = 0;
+    for (std::string line; std::getline(status, line);)
+        if (line.rfind("SigCgt:", 0) == 0 || line.rfind("SigIgn:", 0) == 0)
+            masks |= std::stoull(line.substr(line.find(':') + 1), nullptr, 16);
+    return (masks >> (signal - 1) & 1U) != 0;
+}
+
 inline void send_signal(pid_t child, const RunOptions& options) {
+    while (options.signal != SIGKILL && !catches_or_ignores(child, options.signal) && !has_ended(child))
+        usleep(1000);
     while (options.signal_when && !options.signal_when() && !has_ended(child)) usleep(50);
     usleep(options.signal_after_ms * 1000 + options.signal_after_us);
     kill(child, options.signal);

@@ -185,7 +185,7 @@ TEST(Cases, ANoteOffEndsTheNoteItBelongsTo) {
     }
 }
 
-TEST(Cases, BrokenFilesPlayWithANoticeAndAreRefusedStrictly) {
+TEST(BrokenCases, PlayWithANoticeAndAreRefusedStrictly) {
     const std::vector<std::pair<std::string, int>> files{{"16a_missing_eot", 2},
                                                          {"16b_running_after_meta", 2},
                                                          {"16d_type0_two_tracks", 2},
