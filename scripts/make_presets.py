@@ -23,11 +23,11 @@ from levels import PHRASE_LUFS  # noqa: E402
 
 SCHEMA = "jawari.preset/2"
 INSTRUMENTS = {**basses.INSTRUMENTS, **guitars.INSTRUMENTS, **eastern.INSTRUMENTS, **keyboards.INSTRUMENTS}
-# Chosen so that the same phrase is equally loud on all: scripts/voice.py PROGRAM --gains prints them. Guitars
-# are below that, as far as the loudest chord demands: nylon by 3 dB, steel by 1.5 dB.
+# Chosen so that the same phrase is equally loud on all: scripts/voice.py PROGRAM --gains prints them. The sitar is 0.8 dB below that,
+# as far as its loudest chord demands; the tanpura 0.8 dB above, as its chord is the softest.
 GAIN = {
-    "bass-fretted": 0.0791, "bass-fretless": 0.0636, "bass-slap": 0.0293, "guitar-steel": 52, "guitar-nylon": 178, "guitar-electric": 0.0493, "guitar-12": 52.2,
-    "sitar": 88, "tanpura": 100, "biwa": 43.3, "harpsichord": 50.3, "clavichord": 200, "dulcimer": 6.16, "prepared": 2.12,
+    "bass-fretted": 0.0826, "bass-fretless": 0.0392, "bass-slap": 0.0232, "guitar-steel": 27.6, "guitar-nylon": 63, "guitar-electric": 0.0197, "guitar-12": 28.8,
+    "sitar": 40.7, "tanpura": 34.8, "biwa": 30, "harpsichord": 26.9, "clavichord": 194, "dulcimer": 5.75, "prepared": 2.02,
 }
 GAIN_SOURCE = f"chosen: the same phrase has {PHRASE_LUFS:g} LUFS on every preset (scripts/voice.py --gains)"
 QUALITY_SOURCE = "chosen: a compromise of cost and of what ultrasonic modes add (scripts/preset_convergence.py)"
@@ -40,7 +40,8 @@ def preset(name):
     if "body" in content:
         content["body"] = body.fitted(name, content["body"])
         content["provenance"] = {**content.get("provenance", {}), "body": body.source(name, content.get("provenance", {})["body"])}
-        content["strings"] = body.levelled(name, content["strings"])
+    content = body.coloured(name, content)
+    content["strings"] = body.levelled(name, content["strings"])
     content["gain"] = GAIN[name]
     content["provenance"] = {"gain": GAIN_SOURCE, "contact_rate_min_hz": QUALITY_SOURCE, "mode_limit_hz": QUALITY_SOURCE,
                              **content.get("provenance", {})}

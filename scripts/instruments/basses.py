@@ -1,7 +1,7 @@
 """Electric basses: fretted, fretless, slapped."""
 import frets
 import strings
-from parts import finger, from_bridge, hammer, hand, quality, sourced, velocity_pickup, with_sources
+from parts import finger, from_bridge, hammer, hand, noise, quality, rough, sourced, velocity_pickup, with_sources
 from wire import DADDARIO_SOURCE, rounded
 
 JASA = "published (Issanchou, Acary, Perignon, Touze, Le Carrou, JASA 143 (2018) 131)"
@@ -24,12 +24,12 @@ def sourced_strings(rows, damping):
 
 
 def plain_finger(position_m, height_m, **given):
-    return finger("finger", from_bridge(position_m), 0.012, 0.006, 0.0006, height_m, 1.7, 1.0, given=given)
+    return finger("finger", from_bridge(position_m), 0.012, 0.006, 0.0006, height_m, 1.7, 1.0, given=given, **rough(0.03))
 
 
 def player(release_t60_s, dead_t60_s=0.04):
     return hand(release_t60_s, palm_t60_s=0.25, dead_t60_s=dead_t60_s, harmonic_t60_s=0.05, harmonic_touch_s=0.15, legato_level=0.3,
-                pressure_semitones=0.5)
+                pressure_semitones=0.5, **noise(0.5, 0.06))
 
 
 def fretted():

@@ -88,6 +88,21 @@ def source(name, text):
             "(scripts/voice.py --fit)")
 
 
+def coloured(name, content):
+    """A preset without a body with the coils and the exciter that were fitted to recorded sets, if they were."""
+    fit = fits.get(name, {})
+    if "pickups" not in fit:
+        return content
+    text = f"chosen: fitted to {fit['to']}, distance {fit['distance_db']:g} dB per third octave after {fit['before_db']:g} (scripts/voice.py --fit)"
+
+    def changed(row, values):
+        return {**row, **values, "provenance": {**row["provenance"], **{key: text for key in values}}}
+
+    values = {key: value for key, value in fit["exciter"].items() if key != "name"}
+    return {**content, "pickups": [changed(row, fit["pickups"]) for row in content["pickups"]],
+            "exciters": [changed(row, values) if row["name"] == fit["exciter"]["name"] else row for row in content["exciters"]]}
+
+
 def levelled(name, rows):
     """The strings with the levels that make an instrument even, if they were fitted: a factor of each string's signals."""
     levels = fits.get(name, {}).get("string_levels_db", {})

@@ -1,7 +1,7 @@
 """Sitar, tanpura and biwa: strings that graze a surface all the time."""
 import body
 import strings
-from parts import SOFTER, finger, from_bridge, hand, panned, quality, share, sourced, with_sources
+from parts import SOFTER, finger, from_bridge, hand, noise, panned, quality, rough, share, sourced, with_sources
 
 BODY = {"body": "chosen (scripts/instruments/body.py)"}
 SOLID = "chosen: B = pi^2 E I/(T L^2) of a solid wire"
@@ -31,8 +31,8 @@ def sitar():
                                "parabola": {"length_m": 0.020, "drop_m": 0.00015, "height_m": 0.0}, "points": 12},
                               parabola="chosen: the published shape (buckinghammusic.com, sitar tutorial: 'a parabola', 'curved down about one "
                                        "millimetre' over 25 mm), made flatter until a long note keeps buzzing")],
-        "exciters": [finger("mizrab", from_bridge(0.09), 0.002, 0.003, 0.0001, 0.003, 1.3, 0.3, **SOFTER)],
-        "hand": player(0.15, pressure_semitones=3), "body": body.SITAR,
+        "exciters": [finger("mizrab", from_bridge(0.09), 0.002, 0.003, 0.0001, 0.003, 1.3, 0.3, **SOFTER, **rough(0.04))],
+        "hand": player(0.15, pressure_semitones=3, **noise(0.015, 0.06)), "body": body.SITAR,
         "strings": panned([{**row, **({"frets": {"count": 24}} if row["name"] in ("baj", "jor") else {})} for row in rows], 0.2),
     }
 
@@ -54,7 +54,7 @@ def tanpura():
                               profile_m="published two-point bridge (Issanchou, Bilbao, Le Carrou, Touze, Doare, JSV 393 (2017): a point near the "
                                         "string's end at rest height); the fall in front of it is chosen")],
         "soft_touches": [sourced({"name": "jiva thread", **from_bridge(0.004), "width_m": 0.0005, "damping_kg_per_s": 0.012})],
-        "exciters": [finger("finger", share(0.45), 0.012, 0.02, 0.001, 0.005, 1.3, 0.5, **SOFTER)],
+        "exciters": [finger("finger", share(0.45), 0.012, 0.02, 0.001, 0.005, 1.3, 0.5, **SOFTER, **rough(0.02))],
         "hand": player(0.5, damps=False), "body": body.TANPURA, "strings": panned(rows, 0.2),
     }
 
@@ -74,8 +74,8 @@ def biwa():
                                "parabola": {"length_m": 0.008, "drop_m": 0.00006, "height_m": 0.0}, "points": 8},
                               parabola="chosen size and curve for a published mechanism (Taguti, Acoust. Sci. Tech. 29 (2008) 203: a surface of very "
                                        "small size that the vibrating string touches)")],
-        "exciters": [finger("bachi", from_bridge(0.06), 0.003, 0.004, 0.0002, 0.004, 1.2, 0.5, **SOFTER)],
-        "hand": player(0.15, pressure_semitones=4), "body": body.BIWA, "strings": panned(rows, 0.2),
+        "exciters": [finger("bachi", from_bridge(0.06), 0.003, 0.004, 0.0002, 0.004, 1.2, 0.5, **SOFTER, **rough(0.05))],
+        "hand": player(0.15, pressure_semitones=4, **noise(0.12, 0.06)), "body": body.BIWA, "strings": panned(rows, 0.2),
     }
 
 

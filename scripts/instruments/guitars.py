@@ -2,7 +2,8 @@
 import body
 import frets
 import strings
-from parts import SOFTER, SOFTER_PLECTRUM, finger, from_bridge, hand, panned, quality, sourced, velocity_pickup, with_sources
+from parts import (SOFTER, SOFTER_PLECTRUM, finger, from_bridge, hand, noise, panned, quality, rough, sourced, velocity_pickup,
+                   with_sources)
 from wire import DADDARIO_SOURCE
 
 TUNING = "published: standard tuning, A4 at 440 Hz"
@@ -12,13 +13,17 @@ BODY = {"body": "chosen: first resonances in the order that is measured on many 
 WOODHOUSE = "published (Woodhouse, Acta Acustica united with Acustica 90 (2004) 945: strings of a classical guitar)"
 
 
+BRIGHTENING = {key: "chosen: level from 5 to 10 kHz and centroid, soft and loud, near those of the recorded sets (docs/voicing.md)"
+               for key in ("width_m", "release_s", "full_height_m", "time_exponent", "roughness")}
+
+
 def plectrum(from_bridge_m, height_m, release_s):
-    return finger("plectrum", from_bridge(from_bridge_m), 0.002, 0.004, release_s, height_m, 1.4, 0.5, **SOFTER_PLECTRUM)
+    return finger("plectrum", from_bridge(from_bridge_m), 0.002, 0.004, release_s, height_m, 1.4, 0.5, **SOFTER_PLECTRUM, **rough(0.04))
 
 
 def player(release_t60_s=0.12, **more):
     return hand(release_t60_s, palm_m=0.02, palm_t60_s=0.15, dead_t60_s=0.03, harmonic_t60_s=0.03, harmonic_touch_s=0.12, legato_level=0.3,
-                pressure_semitones=1, **more)
+                pressure_semitones=1, **noise(0.045, 0.06), **more)
 
 
 def fret_board(length_m, count, first_m, twelfth_m, relief_m):
@@ -41,7 +46,7 @@ def steel():
                     "Articulation 1 is the plectrum, 2 the finger."],
         **quality(192000, 20000), "studio": quality(2000000, 80000), "provenance": BODY,
         "frets": fret_board(length, 20, 0.00055, 0.0022, 0.00015),
-        "exciters": [plectrum(0.13, 0.0025, 0.0001), finger("finger", from_bridge(0.15), 0.008, 0.006, 0.0004, 0.0025, 1.4, 0.8, **SOFTER)],
+        "exciters": [plectrum(0.13, 0.0025, 0.0001), finger("finger", from_bridge(0.15), 0.008, 0.006, 0.0004, 0.0025, 1.4, 0.8, **SOFTER, **rough(0.02))],
         "hand": player(), "body": body.STEEL_GUITAR,
         "strings": panned(daddario_sources(rows, [row[2] for row in strings.STEEL_SET], "chosen: 25.4 in, usual for dreadnoughts",
                                            "chosen: string and body together, not measured"), 0.25),
@@ -60,8 +65,9 @@ def nylon():
                     "Articulation 1 is the fingertip, 2 the nail near the bridge."],
         **quality(300000, 16000), "studio": quality(1000000, 40000), "provenance": BODY,
         "frets": fret_board(length, 19, 0.0009, 0.0038, 0.0001),
-        "exciters": [finger("fingertip", from_bridge(0.11), 0.006, 0.006, 0.0002, 0.0022, 1.3, 0.5, **SOFTER),
-                     finger("nail", from_bridge(0.07), 0.003, 0.005, 0.00015, 0.002, 1.3, 0.5, **SOFTER)],
+        "exciters": [finger("fingertip", from_bridge(0.11), 0.002, 0.006, 0.0001, 0.0018, 1.3, 0.5, **rough(0.005), time_exponent=1,
+                            given=BRIGHTENING),
+                     finger("nail", from_bridge(0.07), 0.003, 0.005, 0.00015, 0.002, 1.3, 0.5, **SOFTER, **rough(0.03))],
         "hand": player(), "body": body.CLASSICAL_GUITAR, "strings": panned(rows, 0.25),
     }
 

@@ -2,7 +2,7 @@
 import body
 import strings
 import wire
-from parts import finger, hammer, hand, quality, share, sourced
+from parts import finger, hammer, hand, noise, quality, rough, share, sourced
 from strings import interpolated, stepped
 from wire import note_hz, rounded
 
@@ -35,7 +35,7 @@ GROUPS = [(29, 32), (33, 36), (37, 40), (41, 44), (45, 48), (49, 52), (53, 56), 
 
 def quill(low, high):
     from_nut = interpolated((low + high) / 2, HARPSICHORD_PLUCK)
-    return finger(f"quill {name_of(low)} to {name_of(high)}", share(rounded(1 - from_nut, 3)), 0.002, 0.006, 0.00008, 0.0012, 0.3, 0.1,
+    return finger(f"quill {name_of(low)} to {name_of(high)}", share(rounded(1 - from_nut, 3)), 0.002, 0.006, 0.00008, 0.0012, 0.3, 0.1, **rough(0.03),
                   string_range=[low - 29, high - 29], given={"position_share": "chosen: a front 8-foot register's usual share"})
 
 
@@ -60,7 +60,7 @@ def harpsichord():
             "body": "published density of modes (Savage, Kottick, Hendrickson, Marshall, JASA 91 (1992): 36 up to 600 Hz); the rest is chosen"},
         "frets": {"count": 0},
         "exciters": [quill(low, high) for low, high in GROUPS],
-        "hand": player(0.25), "body": body.HARPSICHORD, "strings": rows,
+        "hand": player(0.25, **noise(0.003, 0.12)), "body": body.HARPSICHORD, "strings": rows,
     }
 
 
@@ -93,7 +93,7 @@ def clavichord():
         "frets": {"count": 0},
         "exciters": [sourced({"name": "tangent", "kind": "tangent", "rise_s": 0.0025, "full_height_m": 0.0012, "height_exponent": 0.6,
                               "time_exponent": 0.7}, "chosen: peak velocities up to about 1 m/s")],
-        "hand": player(0.3, release_spread=1.5, pressure_semitones=0.6), "body": body.CLAVICHORD,
+        "hand": player(0.3, release_spread=1.5, pressure_semitones=0.6, **noise(0.0003, 0.1)), "body": body.CLAVICHORD,
         "strings": rows,
     }
 
@@ -170,7 +170,7 @@ def prepared():
         "soft_touches": [sourced({"name": "rubber wedge", **share(0.18), "width_m": 0.006, "damping_kg_per_s": 1.5, "strings": RUBBERS})],
         "exciters": [hammer("felt hammer", share(0.88), 0.008, 0.00297, 4.5e9, 2.5, 0.1, 5.0, 1.3,
                             given={"position_share": chaigne, "mass_kg": chaigne, "stiffness_N_per_m_p": chaigne, "exponent": chaigne})],
-        "hand": player(0.15), "body": body.PIANO, "strings": rows,
+        "hand": player(0.15, **noise(0.12, 0.1)), "body": body.PIANO, "strings": rows,
     }
 
 

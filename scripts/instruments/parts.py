@@ -26,6 +26,16 @@ SOFTER = {"time_exponent": 0.5}
 SOFTER_PLECTRUM = {"time_exponent": 0.2}
 
 
+def rough(share):
+    """Noise of the attack: of the force, as rms."""
+    return {"roughness": share}
+
+
+def noise(force_n, time_s):
+    """Noise of the release: rms force on the string in its middle, and how long it takes."""
+    return {"release_noise_N": force_n, "release_noise_s": time_s}
+
+
 def hammer(name, place, width_m, mass_kg, stiffness, exponent, loss_s_per_m, full_speed_m_per_s, speed_exponent, default=EAR, given=None,
            **more):
     return sourced({"name": name, "kind": "hammer", **place, "width_m": width_m, "mass_kg": mass_kg, "stiffness_N_per_m_p": stiffness,

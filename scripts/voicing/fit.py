@@ -1,7 +1,8 @@
-"""Fits a preset to its recorded sets: how its body radiates by frequency, and the level of each string.
+"""Fits a preset to its recorded sets: how its body radiates by frequency or, without a body, how its pickups' coils and its first
+exciter colour the sound; and the level of each string.
 
-Both are data of the preset: factors of the body's modes in third octaves, and the strings' `level`. Sets that are held out are not
-looked at. What comes out is written to scripts/instruments/fitted.json, from which scripts/make_presets.py makes the preset.
+All are data of the preset: factors of the body's modes in third octaves, `resonance_hz` and `quality_factor` of the pickups, times
+and width of the exciter, and the strings' `level`. Sets that are held out are not looked at. What comes out is written to scripts/instruments/fitted.json, from which scripts/make_presets.py makes the preset.
 """
 import json
 import pathlib
@@ -18,13 +19,18 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "scripts" / "instruments")]
 import body  # noqa: E402
 import make_presets  # noqa: E402
+import wire  # noqa: E402
 
 ROUNDS = 6
 STEP = 0.7            # share of what is missing that a round adds: bands overlap
 WIDEST_DB = 60.0      # no third octave is lowered by more against the strongest
 # Instruments without a set of their own take the radiation of a kindred one.
 KINDRED = {"guitar-12": "guitar-steel"}
-EVEN = ["harpsichord", "clavichord", "dulcimer", "guitar-nylon", "guitar-steel"]
+EVEN = ["harpsichord", "clavichord", "dulcimer", "guitar-nylon", "guitar-steel", "guitar-electric", "bass-fretted", "bass-fretless", "bass-slap"]
+# What is tried of presets without a body: the value at which the search begins, and the lowest and highest that an instrument has.
+COIL = {"resonance_hz": (2500.0, 400.0, 8000.0), "quality_factor": (1.0, 0.4, 3.0)}
+EXCITER = {"release_s": (0.0005, 0.0001, 0.002), "width_m": (0.008, 0.002, 0.015)}
+FACTORS = [2.0, 2.0 ** 0.5, 2.0 ** 0.25]  # by which a value is moved either way, from coarse to fine
 NAMES = {"fluid": "Fluid R3 (fluid-soundfont-gm)"}
 
 
@@ -57,7 +63,7 @@ class Trial:
 
     def spectra(self, keys):
         preset, _ = self.written()
-        return compare.spectra_of({key: preset.key(key) for key in keys})
+        return preset.colours(keys)
 
 
 def distance_to(mine, targets):
@@ -76,6 +82,33 @@ def fit_radiation(trial, keys, targets, found):
         found["third_octaves_db"] = bounded([a + STEP * b for a, b in zip(levels, smooth(missing_db(mine, targets)))])
     middle = statistics.median(best[1])  # the instrument's gain is not part of the fit
     found["distance_db"], found["third_octaves_db"] = round(best[0], 1), [round(level - middle, 1) for level in best[1]]
+
+
+def fit_coil(trial, keys, targets, found):
+    """Moves one value after another as long as the distance falls."""
+    description = trial.written()[1]
+    exciter = next(e for e in description["exciters"] if e["kind"] == "finger")
+    places = [("pickups", key) for key in COIL] + [("exciter", key) for key in EXCITER]
+    limits = {("pickups", key): bounds[1:] for key, bounds in COIL.items()} | {("exciter", key): bounds[1:] for key, bounds in EXCITER.items()}
+    found["before_db"] = round(distance_to(trial.spectra(keys), targets), 1)
+    found.update(to=" and ".join(NAMES[label] for label in targets), distance_db=0.0, pickups={key: row[0] for key, row in COIL.items()},
+                 exciter={"name": exciter["name"], **{key: exciter.get(key, row[0]) for key, row in EXCITER.items()}})
+    best = distance_to(trial.spectra(keys), targets)
+    for factor in FACTORS:
+        moved = True
+        while moved:
+            moved = False
+            for section, key in places:
+                for turn in (factor, 1 / factor):
+                    before = found[section][key]
+                    low, high = limits[section, key]
+                    found[section][key] = wire.rounded(min(max(before * turn, low), high), 3)
+                    now = distance_to(trial.spectra(keys), targets) if found[section][key] != before else best
+                    if now < best - 0.02:
+                        best, moved = now, True
+                        break
+                    found[section][key] = before
+    found["distance_db"] = round(best, 1)
 
 
 def keys_of_string(string, description, keys):
@@ -115,12 +148,14 @@ def fit(cache, program, name):
             trial = Trial(cache, program, name, folder)
             keys = sets.keys_of(name, trial.written()[1])
             recorded, _ = sets.recorded(cache, name)
-            targets = {r.name: compare.spectra_of({key: r.key(key) for key in keys}) for r in recorded if r.name in sets.FITTED}
+            targets = {r.name: r.colours(keys) for r in recorded if r.name in sets.FITTED}
+            has_body = "body" in trial.written()[1]
             if targets:
-                fit_radiation(trial, keys, targets, found)
+                (fit_radiation if has_body else fit_coil)(trial, keys, targets, found)
             if name in EVEN:
                 fit_levels(trial, found)
-            fit_balance(trial, found)
+            if has_body:
+                fit_balance(trial, found)
     lines = [f"{json.dumps(key)}: {json.dumps(body.fits[key])}" for key in sorted(body.fits)]
     body.FITTED.write_text("{\n" + ",\n".join(lines) + "\n}\n")
     found = body.fits[name]

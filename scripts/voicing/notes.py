@@ -56,6 +56,16 @@ def of_compass(keys, **instrument):
     return result, starts
 
 
+def of_colours(keys, **instrument):
+    """Every key once at the usual velocity, for half a second of its colour; and (key, start) of each."""
+    result, starts = score(**instrument), []
+    for i, key in enumerate(keys):
+        start = LEAD_S + i * SHORT_APART_S
+        play(result, start, key, USUAL, SHORT_HOLD_S, SHORT_HOLD_S)
+        starts.append((key, start))
+    return result, starts
+
+
 def nearest(key, keys):
     """The key of the same name nearest to the one wanted, else the nearest."""
     same = [k for k in keys if (k - key) % 12 == 0]

@@ -62,7 +62,7 @@ def levels_table(rows):
         f = row["figures"]
         lines.append(f"| `{row['name']}` | {aimed(number(f['lufs']), abs(f['lufs'] - middle) <= LUFS_SPREAD / 2)} | "
                      f"{aimed(number(f['step_db']), f['step_db'] <= STEP_DB)} | {aimed(number(f['range_db']), f['range_db'] <= RANGE_DB)} | "
-                     f"{aimed(number(f['correlation'], 2), f['correlation'] <= CORRELATION)} | {number(f['release_s'], 2) or '-'} | {number(f['release_db'])} |")
+                     f"{aimed(number(f['correlation'], 2), f['correlation'] <= CORRELATION)} | {beside(row, 'release_s', 2)} | {beside(row, 'release_db')} |")
     return "\n".join(lines) + "\n"
 
 

@@ -34,12 +34,20 @@ def note_hz(key):
     return 440.0 * 2 ** ((key - 69) / 12)
 
 
+# A sound that ends early has died away if its last hundredth of a second is this far below its loudest sample.
+DIED_AWAY_DB = -60.0
+
+
 def passage(sound, start_s, length_s):
-    begin = int(start_s * RATE_HZ)
-    part = sound[begin:begin + int(length_s * RATE_HZ)]
-    if len(part) < int(length_s * RATE_HZ):
-        part = properties.np.pad(part, ((0, int(length_s * RATE_HZ) - len(part)), (0, 0)))
-    return part
+    """Part of a sound. What is missing at its end is silence only where the sound had died away; else it is an error."""
+    begin, length = int(start_s * RATE_HZ), int(length_s * RATE_HZ)
+    part = sound[begin:begin + length]
+    if len(part) == length:
+        return part
+    peak, last = (float(properties.np.abs(x).max(initial=0.0)) for x in (part, part[-RATE_HZ // 100:]))
+    if len(part) < RATE_HZ // 100 or last > peak * 10 ** (DIED_AWAY_DB / 20):
+        raise ValueError(f"the sound ends {len(sound) / RATE_HZ:.3f} s after its start, in a note that is heard until {start_s + length_s:.3f} s")
+    return properties.np.pad(part, ((0, length - len(part)), (0, 0)))
 
 
 def measure_key(sound, key, starts):
@@ -50,6 +58,10 @@ def measure_key(sound, key, starts):
 
 def measure_compass(sound, starts):
     return {str(key): round(properties.a_level(passage(sound, start, notes.SHORT_HOLD_S), RATE_HZ), 2) for key, start in starts}
+
+
+def measure_colours(sound, starts):
+    return {str(key): properties.third_octaves(passage(sound, start, properties.SPECTRUM_S), RATE_HZ) for key, start in starts}
 
 
 def measure_phrase(sound):
@@ -103,6 +115,12 @@ class Instrument:
     def compass(self, keys):
         score, starts = notes.of_compass(keys, **self.midi)
         return self.measured(score, lambda sound: measure_compass(sound, starts))
+
+    def colours(self, keys):
+        """Third octaves at the usual velocity, key -> levels: what a fit looks at."""
+        score, starts = notes.of_colours(keys, **self.midi)
+        found = self.measured(score, lambda sound: measure_colours(sound, starts))
+        return {int(key): levels for key, levels in found.items()}
 
     def phrase(self, keys):
         return self.measured(notes.of_phrase(keys, **self.midi), measure_phrase)

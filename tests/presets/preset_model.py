@@ -101,6 +101,16 @@ def without_contacts(preset):
     return free
 
 
+def without_noises(preset):
+    """The preset without the noises of attack and release: what a gesture adds beside them."""
+    plain = copy.deepcopy(preset)
+    strip_provenance(plain)
+    plain.get("hand", {}).pop("release_noise_N", None)
+    for exciter in plain["exciters"]:
+        exciter.pop("roughness", None)
+    return plain
+
+
 def strip_provenance(value):
     if isinstance(value, dict):
         value.pop("provenance", None)

@@ -107,6 +107,17 @@ void warp_sound(Dice& dice, InstrumentDescription& instrument) {
     }
 }
 
+/// Drawn last: what the dice gave before there were noises stays.
+void add_noises(Dice& dice, InstrumentDescription& instrument) {
+    for (ExciterDescription& exciter : instrument.exciters) {
+        auto* finger = std::get_if<FingerDescription>(&exciter.body);
+        if (finger != nullptr && dice.chance(0.5)) finger->roughness = dice.unit();
+    }
+    if (!dice.chance(0.5)) return;
+    instrument.hand.release_noise_N = dice.spread(1e-4, 100);
+    instrument.hand.release_noise_s = dice.spread(0.001, 1);
+}
+
 /// Few modes and steps, so that compiling and playing take milliseconds.
 QualityDescription choose_quality(const InstrumentDescription& instrument, double output_rate_hz,
                                   Dice& dice) {
@@ -168,6 +179,7 @@ HostileInstrument make_hostile_instrument(const PresetShelf& shelf, std::uint64_
     instrument.quality = choose_quality(instrument, hostile.output_rate_hz, dice);
     if (dice.chance(0.3))
         hostile.lower = {lowered(instrument.quality, 0.5), lowered(instrument.quality, 0.2)};
+    if (warped) add_noises(dice, instrument);
     return hostile;
 }
 

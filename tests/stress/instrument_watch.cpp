@@ -19,19 +19,20 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double strongest_magnet = 125;
 
 double total(const PlayerWork& work) {
-    return work.exciters_J + work.touches_J + work.bends_J + work.transfers_J + work.quality_changes_J;
+    return work.exciters_J + work.touches_J + work.bends_J + work.transfers_J + work.quality_changes_J +
+           work.noises_J;
 }
 
 double size_of(const PlayerWork& work) {
     return std::abs(work.exciters_J) + std::abs(work.touches_J) + std::abs(work.bends_J) +
-           std::abs(work.transfers_J) + std::abs(work.quality_changes_J);
+           std::abs(work.transfers_J) + std::abs(work.quality_changes_J) + std::abs(work.noises_J);
 }
 
 /// Sum of the amounts by which each kind of work has changed.
 double moved_since(const PlayerWork& before, const PlayerWork& now) {
     return size_of({now.exciters_J - before.exciters_J, now.touches_J - before.touches_J,
                     now.bends_J - before.bends_J, now.transfers_J - before.transfers_J,
-                    now.quality_changes_J - before.quality_changes_J});
+                    now.quality_changes_J - before.quality_changes_J, now.noises_J - before.noises_J});
 }
 
 ContactReach contact_reach(const StringModel& model) {

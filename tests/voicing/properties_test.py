@@ -13,6 +13,7 @@ import notes  # noqa: E402
 import properties  # noqa: E402
 import report  # noqa: E402
 import sets  # noqa: E402
+import sounds  # noqa: E402
 
 RATE_HZ = 48000
 
@@ -157,6 +158,24 @@ class CompareTest(unittest.TestCase):
         for name, labels in sets.REFERENCE_HELD_OUT.items():
             self.assertTrue(set(labels) <= set(facts["third_octave_sets"][name]))
             self.assertFalse(any(compare.is_of_fluid(label) for label in labels))
+
+
+class PassageTest(unittest.TestCase):
+    def test_a_passage_inside_a_sound_is_that_part_of_it(self):
+        sound = np.column_stack([tone(300, 2.0)] * 2)
+        self.assertTrue((sounds.passage(sound, 0.5, 1.0) == sound[24000:72000]).all())
+
+    def test_a_sound_that_breaks_off_is_an_error(self):
+        sound = np.column_stack([tone(300, 2.0)] * 2)
+        for start_s in (1.5, 1.995, 2.5):
+            with self.assertRaises(ValueError):
+                sounds.passage(sound, start_s, 1.0)
+
+    def test_what_has_died_away_goes_on_in_silence(self):
+        sound = np.column_stack([tone(300, 2.0) * np.exp(-np.log(1000) / 0.4 * seconds(2.0))] * 2)
+        part = sounds.passage(sound, 0.0, 2.5)
+        self.assertEqual(len(part), 120000)
+        self.assertTrue((part[:96000] == sound).all() and not part[96000:].any())
 
 
 if __name__ == "__main__":

@@ -226,7 +226,7 @@ void add_level_messages(const RenderJob& job, const RenderOptions& options, cons
         const double peak = 20 * std::log10(sound.peak);
         result.messages.push_back(
             "warning: " + name + ": " +
-            formatted("%llu samples beyond full scale %s, peak %+.1f dBFS; use --gain %.0f",
+            formatted("%llu samples beyond full scale %s, peak %+.1f dBFS; use --gain %.0f or --limiter -1",
                       static_cast<unsigned long long>(sound.clipped), kept ? "kept" : "clipped", peak,
                       std::floor(options.instrument.gain_db.value_or(0) - peak - 1)));
     }

@@ -8,10 +8,10 @@
 namespace jawari::host::preset {
 
 PickupDescription read_pickup(const json::Value& value, const std::string& path, json::Problems& problems) {
-    Section reader(
-        value, path,
-        {"position_from_bridge_m", "position_share", "width_m", "level", "quantity", "magnet_distance_m"},
-        problems);
+    Section reader(value, path,
+                   {"position_from_bridge_m", "position_share", "width_m", "level", "quantity",
+                    "magnet_distance_m", "resonance_hz", "quality_factor"},
+                   problems);
     PickupDescription pickup;
     pickup.quantity = reader.choice_or<PickupQuantity>("quantity", pickup.quantity,
                                                        {{"velocity", PickupQuantity::Velocity},
@@ -21,6 +21,8 @@ PickupDescription read_pickup(const json::Value& value, const std::string& path,
     pickup.width_m = reader.number_or("width_m", pickup.width_m);
     pickup.level = reader.number_or("level", pickup.level);
     pickup.magnet_distance_m = reader.number_or("magnet_distance_m", pickup.magnet_distance_m);
+    pickup.resonance_hz = reader.number_or("resonance_hz", pickup.resonance_hz);
+    pickup.quality_factor = reader.number_or("quality_factor", pickup.quality_factor);
     return pickup;
 }
 

@@ -18,6 +18,7 @@ FingerDescription finger(Section& reader) {
     body.full_height_m = reader.number("full_height_m");
     body.height_exponent = reader.number_or("height_exponent", body.height_exponent);
     body.damping_kg_per_s = reader.number_or("damping_kg_per_s", body.damping_kg_per_s);
+    body.roughness = reader.number_or("roughness", body.roughness);
     return body;
 }
 
@@ -78,7 +79,7 @@ Section section_of(Kind kind, const Value& value, const std::string& path, Probl
             path,
             {"name", "kind", "position_from_bridge_m", "position_share", "width_m", "velocity_range",
              "string_range", "time_exponent", "rise_s", "release_s", "full_height_m", "height_exponent",
-             "damping_kg_per_s"},
+             "damping_kg_per_s", "roughness"},
             problems};
 }
 
@@ -122,9 +123,9 @@ ExciterDescription read_exciter(const Value& value, const std::string& path, Pro
 
 HandDescription read_hand(const Value& value, const std::string& path, Problems& problems) {
     Section reader(value, path,
-                   {"damps", "release_places", "release_t60_s", "release_spread", "palm_place", "palm_t60_s",
-                    "dead_t60_s", "harmonic_t60_s", "harmonic_touch_s", "legato_level", "pressure_semitones",
-                    "course_delay_s"},
+                   {"damps", "release_places", "release_t60_s", "release_spread", "release_noise_N",
+                    "release_noise_s", "palm_place", "palm_t60_s", "dead_t60_s", "harmonic_t60_s",
+                    "harmonic_touch_s", "legato_level", "pressure_semitones", "course_delay_s"},
                    problems);
     HandDescription hand;
     hand.damps = reader.flag_or("damps", hand.damps);
@@ -140,6 +141,8 @@ HandDescription read_hand(const Value& value, const std::string& path, Problems&
         hand.palm_place = read_place(*palm, reader.path_of("palm_place"), problems);
     hand.release_t60_s = reader.number_or("release_t60_s", hand.release_t60_s);
     hand.release_spread = reader.number_or("release_spread", hand.release_spread);
+    hand.release_noise_N = reader.number_or("release_noise_N", hand.release_noise_N);
+    hand.release_noise_s = reader.number_or("release_noise_s", hand.release_noise_s);
     hand.palm_t60_s = reader.number_or("palm_t60_s", hand.palm_t60_s);
     hand.dead_t60_s = reader.number_or("dead_t60_s", hand.dead_t60_s);
     hand.harmonic_t60_s = reader.number_or("harmonic_t60_s", hand.harmonic_t60_s);

@@ -25,11 +25,21 @@ inline constexpr std::size_t touch_slots = 7;
 /// Where a force acts over the current frame. With w = phi (q - h v/2) there:
 struct TouchedPoint {
     double force_N = 0;  ///< held over the frame [N]
+    double noise_N = 0;  ///< the part of it that is a touch's noise [N]
     double start_m = 0;  ///< w at the frame's start [m]
     double path_m = 0;   ///< change of w over the frame if no contact acts [m]
 };
 
-/// A dashpot and a spring at a place: F = -c dw/dt - k (w - rest).
+/// What a hand, a damper or a jack sounds like as it comes to the string: a random force that swells and
+/// ends.
+struct TouchNoise {
+    double level_N = 0;        ///< rms in the middle [N]; 0: none
+    std::uint64_t frame = 0;   ///< output frames since it began
+    std::uint64_t frames = 0;  ///< output frames that it lasts
+    std::uint64_t seed = 0;    ///< of its samples
+};
+
+/// A dashpot and a spring at a place, and a noise N: F = -c dw/dt - k (w - rest) + N.
 struct Touch {
     bool active = false;
     double damping_kg_per_s = 0;    ///< c in force, follows pressed_kg_per_s [kg/s]
@@ -47,6 +57,7 @@ struct Touch {
     std::uint64_t age = 0;      ///< output frames since it was laid
     std::size_t modes = 0;      ///< number of modes that it reaches (padded); `row` counts up to here
     AlignedVector<double> row;  ///< phi_k averaged over the width [m^(-1/2)]; 0 from `modes` on
+    TouchNoise noise;           ///< of its coming
     TouchedPoint point;
 };
 
@@ -63,6 +74,8 @@ struct ExciterState {
     std::uint64_t rise_frames = 0;     ///< finger, tangent: output frames of the rise
     std::uint64_t release_frames = 0;  ///< finger: output frames of the release
     double peak = 0;                   ///< finger: force [N]; tangent: mu times height [kg]
+    double roughness = 0;              ///< finger: rms of the force's noise, as a share of the force
+    std::uint64_t seed = 0;            ///< finger: of that noise
     double position_m = 0;             ///< hammer: its place z on the axis of w [m]
     double speed_m_per_s = 0;          ///< hammer: speed at the frame's start [m/s]
     double mass_kg = 0;                ///< hammer [kg]
@@ -80,6 +93,7 @@ struct TouchState {
     /// G_ij = displacement at i at a frame's end per newton held at j [m/N]; the exciter is last.
     std::array<double, (touch_slots + 1) * (touch_slots + 1)> compliance{};
     bool outdated = true;         ///< compliance must be computed anew
+    std::uint64_t noises = 0;     ///< that have begun: no two are alike
     AlignedVector<double> moved;  ///< scratch over modes
 };
 
@@ -94,6 +108,7 @@ struct PlayerWork {
     /// change_quality(): energy after less energy before, of the modes that are left out, but for rounding of
     /// the order of the step [J].
     double quality_changes_J = 0;
+    double noises_J = 0;  ///< work of the noise of touches; that of a rough finger is in exciters_J [J]
 };
 
 }  // namespace jawari

@@ -109,6 +109,9 @@ struct FingerDescription {
     double height_exponent = 1;  ///< lift = full_height_m velocity^height_exponent, 0.1 to 4
     /// Dashpot of the finger while it lies on the string before the release, 0 to 100 [kg/s].
     double damping_kg_per_s = 0;
+    /// The edge of a plectrum, skin on a wound string: rms of a random part of the force, as a share of the
+    /// force, 0 to 1; its spectrum falls from some kilohertz on.
+    double roughness = 0;
 };
 
 /// A free body with a felt or flesh of potential K xi^(p+1)/(p+1) strikes the string from below (Chaigne and
@@ -152,8 +155,12 @@ struct HandDescription {
     /// Where the damping hand lies. The defaults leave no partial free: for each k up to 39, |sin(k pi
     /// share)| is at least 0.35 at one of the two.
     std::array<StringPlace, 2> release_places{{{0, 0.164}, {0, 0.312}}};
-    double release_t60_s = 0.1;       ///< T60 after note-off at release velocity 0.5, 0.005 to 60 [s]
-    double release_spread = 2;        ///< factor of T60 at release velocity 0, divisor at 1; 1 to 10
+    double release_t60_s = 0.1;  ///< T60 after note-off at release velocity 0.5, 0.005 to 60 [s]
+    double release_spread = 2;   ///< factor of T60 at release velocity 0, divisor at 1; 1 to 10
+    /// Noise of the hand, damper or jack that comes to the string at note-off: rms force in its middle at
+    /// release velocity 0.5, multiplied by release_spread at 1 and divided by it at 0; 0 to 100 [N].
+    double release_noise_N = 0;
+    double release_noise_s = 0.03;    ///< time in which that noise swells and ends, 0.001 to 1 [s]
     StringPlace palm_place{0, 0.03};  ///< where the palm lies
     double palm_t60_s = 0.2;          ///< T60 at full palm mute, 0.005 to 60 [s]
     double dead_t60_s = 0.03;         ///< T60 of a dead note under the stopping hand, 0.005 to 60 [s]
@@ -182,6 +189,10 @@ struct PickupDescription {
     /// Distance to the pole, 0 to 0.1 [m]; 0: linear. Velocities are divided by (1 - u/distance)^3: the field
     /// of a magnetic charge falls with the squared distance (Horton and Moore, Am. J. Phys. 77 (2009) 144).
     double magnet_distance_m = 0;
+    /// The coil with its cable and the tone control: a low pass of second order with its resonance here, 50
+    /// to 20000 [Hz]; 0: none. It acts on each partial at its compiled frequency, without its phase.
+    double resonance_hz = 0;
+    double quality_factor = 1;  ///< of that low pass: its gain at the resonance, 0.2 to 20
 };
 
 /// A resonance of the body, driven by the force on the bridge: a damped oscillator of 1 kg whose velocity is

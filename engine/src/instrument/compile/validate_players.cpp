@@ -9,7 +9,8 @@ Check check_body(const std::string& place, const FingerDescription& finger) {
                                 {"release_s", finger.release_s, 5e-5, 0.1},
                                 {"full_height_m", finger.full_height_m, 1e-6, 0.02},
                                 {"height_exponent", finger.height_exponent, 0.1, 4},
-                                {"damping_kg_per_s", finger.damping_kg_per_s, 0, 100}});
+                                {"damping_kg_per_s", finger.damping_kg_per_s, 0, 100},
+                                {"roughness", finger.roughness, 0, 1}});
 }
 
 Check check_body(const std::string& place, const HammerDescription& hammer) {
@@ -55,6 +56,8 @@ Check check_hand(const HandDescription& hand, double shortest_m) {
     if (auto failure = check_place("hand.palm_place", hand.palm_place, shortest_m)) return failure;
     return check_values("hand.", {{"release_t60_s", hand.release_t60_s, 0.005, 60},
                                   {"release_spread", hand.release_spread, 1, 10},
+                                  {"release_noise_N", hand.release_noise_N, 0, 100},
+                                  {"release_noise_s", hand.release_noise_s, 0.001, 1},
                                   {"palm_t60_s", hand.palm_t60_s, 0.005, 60},
                                   {"dead_t60_s", hand.dead_t60_s, 0.005, 60},
                                   {"harmonic_t60_s", hand.harmonic_t60_s, 0.005, 60},
@@ -87,7 +90,11 @@ Check validate_output(const InstrumentDescription& instrument, double shortest_m
         if (auto failure =
                 check_values(place + ".", {{"width_m", pickups[i].width_m, 0, 0.1},
                                            {"level", pickups[i].level, -100, 100},
-                                           {"magnet_distance_m", pickups[i].magnet_distance_m, 0, 0.1}}))
+                                           {"magnet_distance_m", pickups[i].magnet_distance_m, 0, 0.1},
+                                           {"quality_factor", pickups[i].quality_factor, 0.2, 20}}))
+            return failure;
+        if (pickups[i].resonance_hz == 0) continue;
+        if (auto failure = check_values(place + ".", {{"resonance_hz", pickups[i].resonance_hz, 50, 20000}}))
             return failure;
     }
     const auto& body = instrument.body;

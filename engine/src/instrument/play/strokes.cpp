@@ -133,16 +133,19 @@ void wait_for_voice(InstrumentState& state, std::size_t s, const Stroke& stroke)
     state.counters.delayed_notes += 1;
 }
 
-/// The old voice fades while the new one, which has its shape, rises.
+/// What a new voice takes over from the old one.
+using Transfer = void (*)(const InstrumentStringModel&, const Voice&, Voice&, PlayerWork&);
+
+/// The old voice fades while the new one, which has its motion, rises.
 Voice& cross_over(const InstrumentModel& model, InstrumentState& state, std::size_t s, std::size_t v,
-                  const Stroke& stroke) {
+                  const Stroke& stroke, Transfer transfer) {
     InstrumentStringState& string = state.strings[s];
     Voice& old = string.voices[string.sounding];
     const VoiceGains gains = old.gains;
     old.phase = VoicePhase::Damped;
     old.slide.active = false;
     Voice& voice = wake_voice(model, state, s, v, stroke);
-    carry_over(string_of(model, state, s), old, voice, state.work);
+    transfer(string_of(model, state, s), old, voice, state.work);
     fade_voice(old);
     voice.rise_frame = 0;
     voice.age = 1;
@@ -203,7 +206,7 @@ void continue_string(const InstrumentModel& model, InstrumentState& state, std::
         return;
     }
     if (begin_slide(model, state, s, stroke)) return;
-    Voice& voice = cross_over(model, state, s, v, stroke);
+    Voice& voice = cross_over(model, state, s, v, stroke, carry_over);
     Stroke lighter = stroke;
     lighter.velocity *= model.hand.legato_level;
     if (lighter.velocity > 0) {
@@ -225,7 +228,7 @@ void arrive(const InstrumentModel& model, InstrumentState& state, std::size_t s)
     Stroke stroke;
     stroke.fret = voice.slide.fret;
     stroke.channel = voice.channel;
-    cross_over(model, state, s, v, stroke);
+    cross_over(model, state, s, v, stroke, keep_partials);
     fade_damped(string, state.counters);
 }
 

@@ -1,6 +1,7 @@
 #include "instrument/touch/exciters.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -20,6 +21,26 @@ constexpr double small_change = 0.01;
 /// A hammer that has not met the string, or not left it, by then is taken away [s].
 constexpr double longest_stroke_s = 0.1;
 
+// ---------------------------------------------------------------------------------------------- noise
+
+/// Of the grid on which noises are random.
+constexpr double noise_rate_hz = 24000;
+/// A sum (1-f) a + f b of numbers that are uniform in -1 to 1 has the variance 2/9, over all f.
+constexpr double rms_of_noise = 0.47140452079103168;
+/// Steele, Lea, Flood, Fast Splittable Pseudorandom Number Generators, OOPSLA 2014: SplitMix64.
+constexpr std::uint64_t golden_gamma = 0x9e3779b97f4a7c15;
+
+std::uint64_t mixed(std::uint64_t z) {
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return z ^ (z >> 31);
+}
+
+/// Uniform in -1 to 1.
+double sample(std::uint64_t seed, std::uint64_t index) {
+    return static_cast<double>(mixed(seed + (index + 1) * golden_gamma) >> 11) * 0x1p-52 - 1;
+}
+
 // ---------------------------------------------------------------------------------------------- finger
 
 /// Integral of half a cosine's rise from 0 to x.
@@ -27,8 +48,12 @@ double half_cosine_area(double x) {
     return x / 2 - std::sin(pi * x) / (2 * pi);
 }
 
-double finger_force(ExciterState& exciter) {
-    const double share = finger_shape(exciter.frame, exciter.rise_frames, exciter.release_frames);
+double finger_force(double frame_s, ExciterState& exciter) {
+    double share = finger_shape(exciter.frame, exciter.rise_frames, exciter.release_frames);
+    if (exciter.roughness > 0) {
+        const double middle_s = (static_cast<double>(exciter.frame) + 0.5) * frame_s;
+        share *= 1 + exciter.roughness * noise_at(exciter.seed, middle_s);
+    }
     exciter.frame += 1;
     if (exciter.frame >= exciter.rise_frames + exciter.release_frames) exciter.phase = ExciterPhase::None;
     return exciter.peak * share;
@@ -140,10 +165,24 @@ void begin(ExciterState& exciter, ExciterPhase phase) {
     exciter.phase = phase;
     exciter.frame = 0;
     exciter.has_touched = false;
+    exciter.roughness = 0;
     exciter.point = {};
 }
 
 }  // namespace
+
+double noise_at(std::uint64_t seed, double time_s) JAWARI_REALTIME {
+    const double place = time_s * noise_rate_hz;
+    const double before = std::floor(place);
+    const auto index = static_cast<std::uint64_t>(before);
+    const double past = place - before;
+    return ((1 - past) * sample(seed, index) + past * sample(seed, index + 1)) / rms_of_noise;
+}
+
+std::uint64_t next_noise(const StringModel& model, TouchState& touches) JAWARI_REALTIME {
+    touches.noises += 1;
+    return mixed(std::bit_cast<std::uint64_t>(model.tuning.omega[0]) + touches.noises * golden_gamma);
+}
 
 std::uint64_t frames_of(double seconds, double rate_hz) JAWARI_REALTIME {
     return static_cast<std::uint64_t>(std::max(1.0, std::ceil(seconds * rate_hz)));
@@ -165,7 +204,7 @@ double finger_shape(std::uint64_t n, std::uint64_t rise_frames,
 double exciter_force(const StringAtExciter& at, ExciterState& exciter) JAWARI_REALTIME {
     switch (exciter.phase) {
         case ExciterPhase::Finger:
-            return finger_force(exciter);
+            return finger_force(at.frame_s, exciter);
         case ExciterPhase::Hammer:
             return hammer_force(at, exciter);
         case ExciterPhase::Tangent:

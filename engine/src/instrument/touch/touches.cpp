@@ -53,6 +53,7 @@ struct ActiveForces {  // NOLINT(cppcoreguidelines-pro-type-member-init)
     std::size_t touches = 0;        ///< those in front
     std::size_t touched_modes = 0;  ///< that any of them reaches
     bool sprung = false;            ///< one of them has a spring
+    bool noisy = false;             ///< one of them makes a noise
 };
 
 const AlignedVector<double>& row_of(const TouchState& touches, std::size_t i) {
@@ -108,8 +109,8 @@ struct TouchAnswer {  // NOLINT(cppcoreguidelines-pro-type-member-init)
     std::array<double, touch_slots> by_exciter;
 };
 
-/// F_i = -(c/T + k/2) (rise_i + sum_j G_ij F_j) - k (w_i - rest_i), solved for the F of the touches. With one
-/// right side nothing is said of the exciter.
+/// F_i = -(c/T + k/2) (rise_i + sum_j G_ij F_j) - k (w_i - rest_i) + N_i, solved for the F of the touches.
+/// With one right side nothing is said of the exciter.
 template <std::size_t most, std::size_t sides>
 TouchAnswer answer_of(const StringModel& model, const TouchState& touches, const ActiveForces& active,
                       const kernels::TouchedRows& paths) {
@@ -125,7 +126,8 @@ TouchAnswer answer_of(const StringModel& model, const TouchState& touches, const
         for (std::size_t b = 0; b < n; ++b)
             system.matrix[a][b] =
                 (a == b ? 1.0 : 0.0) + drag * touches.compliance[i * forces + active.index[b]];
-        system.right[a][0] = -drag * paths.rise[a] - stiffness * (paths.middle[a] - touch.rest_m);
+        system.right[a][0] =
+            -drag * paths.rise[a] - stiffness * (paths.middle[a] - touch.rest_m) + touch.point.noise_N;
         if (sides == 2) system.right[a][1] = -drag * touches.compliance[i * forces + exciter_index];
     }
     solve_small_system<most, sides>(system, n);
@@ -194,6 +196,20 @@ void move(Touch& touch) {
     if (touch.frames_left == 0) leave(touch);
 }
 
+/// Noises swell and end as half a sine.
+void make_noises(const StringModel& model, TouchState& touches, const ActiveForces& active) {
+    for (std::size_t a = 0; a < active.touches; ++a) {
+        Touch& touch = touches.touches[active.index[a]];
+        TouchNoise& noise = touch.noise;
+        if (noise.level_N == 0) continue;
+        const double middle = static_cast<double>(noise.frame) + 0.5;
+        const double swell = std::sin(std::numbers::pi * middle / static_cast<double>(noise.frames));
+        touch.point.noise_N = noise.level_N * swell * noise_at(noise.seed, middle * frame_s(model));
+        noise.frame += 1;
+        if (noise.frame >= noise.frames) noise.level_N = 0;
+    }
+}
+
 /// Moves the touches on by a frame; those that are left, and the exciter.
 ActiveForces move_touches(TouchState& touches) {
     ActiveForces active;  // NOLINT(cppcoreguidelines-pro-type-member-init): the first `count` are set
@@ -206,6 +222,7 @@ ActiveForces move_touches(TouchState& touches) {
         active.index[active.count++] = i;
         active.touched_modes = std::max(active.touched_modes, touch.modes);
         active.sprung = active.sprung || touch.stiffness_N_per_m > 0;
+        active.noisy = active.noisy || touch.noise.level_N > 0;
     }
     active.touches = active.count;
     touches.exciter.point = {};
@@ -257,6 +274,8 @@ void lay_touch(const StringModel& model, const StringState& string, TouchState& 
     touch.pressed_kg_per_s = plan.damping_kg_per_s;
     touch.stiffness_N_per_m = plan.stiffness_N_per_m;
     touch.frames_left = plan.frames;
+    touch.noise = {.level_N = plan.noise_N, .frames = plan.noise_frames};
+    if (plan.noise_N > 0) touch.noise.seed = next_noise(model, touches);
     touch.x_m = plan.x_m;
     touch.width_m = plan.width_m;
     touch.sweep_m = plan.sweep_m;
@@ -276,7 +295,9 @@ void press_touch(TouchState& touches, TouchSlot slot, double damping_kg_per_s) J
 }
 
 void lift_touch(TouchState& touches, TouchSlot slot) JAWARI_REALTIME {
-    leave(touch_at(touches, slot));
+    Touch& touch = touch_at(touches, slot);
+    touch.noise.level_N = 0;
+    leave(touch);
 }
 
 void apply_touches(const StringModel& model, StringState& string, TouchState& touches) JAWARI_REALTIME {
@@ -287,6 +308,7 @@ void apply_touches(const StringModel& model, StringState& string, TouchState& to
         return;
     }
     sweep_touches(model, touches, active);
+    if (active.noisy) make_noises(model, touches, active);
     if (touches.outdated) set_compliance_of_touches(model, touches, active);
     const kernels::TouchedRows paths = free_paths(model, string, touches, active);
     const TouchAnswer answer = excites ? answer_of_touches<2>(model, touches, active, paths)
@@ -300,7 +322,7 @@ void apply_touches(const StringModel& model, StringState& string, TouchState& to
     for (std::size_t a = 0; a < active.touches; ++a)
         force_N[a] = answer.alone[a] + answer.by_exciter[a] * exciter_N;
     note_paths(touches, active, paths, force_N);
-    const bool passive = exciter_N == 0 && !active.sprung;
+    const bool passive = exciter_N == 0 && !active.sprung && !active.noisy;
     hold_forces(string, {active.count, force_N.data(), paths.row.data()}, active.touched_modes,
                 excites ? model.shape->stride : active.touched_modes, passive);
 }
@@ -328,7 +350,9 @@ void meter_touches(const StringModel& model, const StringState& string, TouchSta
     };
     for (const Touch& touch : touches.touches) {
         if (touch.point.force_N == 0) continue;
-        work.touches_J += touch.point.force_N * path_of(touch.point, touch.row, touch.modes);
+        const double path_m = path_of(touch.point, touch.row, touch.modes);
+        work.touches_J += (touch.point.force_N - touch.point.noise_N) * path_m;
+        work.noises_J += touch.point.noise_N * path_m;
     }
     const ExciterState& exciter = touches.exciter;
     if (exciter.point.force_N != 0)

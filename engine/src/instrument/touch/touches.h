@@ -24,9 +24,11 @@ struct TouchPlan {
     double width_m = 0;  ///< over which it is spread
     double sweep_m = 0;  ///< how far it sweeps to either side; without a spring
     double damping_kg_per_s = 0;
-    double stiffness_N_per_m = 0;  ///< relaxed where the string now is
-    std::uint64_t frames = 0;      ///< 0: it stays
-    double ease_frames = 0;        ///< in which it comes, and leaves: a sudden force would click
+    double stiffness_N_per_m = 0;    ///< relaxed where the string now is
+    std::uint64_t frames = 0;        ///< 0: it stays
+    double ease_frames = 0;          ///< in which it comes, and leaves: a sudden force would click
+    double noise_N = 0;              ///< rms of the noise of its coming
+    std::uint64_t noise_frames = 0;  ///< that the noise lasts
 };
 
 void lay_touch(const StringModel& model, const StringState& string, TouchState& touches, TouchSlot slot,

@@ -19,6 +19,8 @@ constexpr double hand_ease_s = 0.01;
 constexpr double left_ease_s = 0.003;
 /// How far the damping hand sweeps to either side: share of the speaking length.
 constexpr double hand_sweep = 0.08;
+/// Of the damping that absorbs best: near it, twice the damping changes nothing.
+constexpr double firmest_palm = 0.5;
 /// Hands and exciters keep this share of the speaking length from its ends, where no force moves the string.
 constexpr double end_share = 0.01;
 
@@ -51,7 +53,9 @@ void lay_damping_hand(const InstrumentModel& model, const InstrumentStringModel&
                   {.x_m = x,
                    .sweep_m = hand_sweep * stopped.string.shape->length_m,
                    .damping_kg_per_s = damping_for(stopped, x, 2 * t60_s),
-                   .ease_frames = hand_ease_s * model.output_rate_hz});
+                   .ease_frames = hand_ease_s * model.output_rate_hz,
+                   .noise_N = i == 0 ? model.hand.release_noise_N / spread : 0.0,
+                   .noise_frames = frames_of(model.hand.release_noise_s, model.output_rate_hz)});
     }
 }
 
@@ -69,7 +73,10 @@ void press_palm(const InstrumentModel& model, const InstrumentStringModel& strin
     }
     const StoppedStringModel& stopped = string.stopped[voice.fret];
     const double x = place_on(stopped, model.hand.palm_place, position_factor);
-    const double damping = damping_for(stopped, x, model.hand.palm_t60_s / mute);
+    // The decay changes evenly with the parameter if the damping follows its square; near the bridge even a
+    // weak palm asks for more than absorbs best.
+    const double damping =
+        firmest_palm * mute * mute * damping_for(stopped, x, model.hand.palm_t60_s * firmest_palm);
     if (palm.active) {
         press_touch(voice.touches, TouchSlot::Palm, damping);
     } else {

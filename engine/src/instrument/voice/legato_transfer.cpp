@@ -99,38 +99,78 @@ Motion project(const Lengths& lengths, const Motion& motion) {
     return projected;
 }
 
+/// Where a voice's modes are, and how fast they truly move.
+struct Coordinates {
+    const Voice& voice;
+    const double* rest;
+    const double* backward_q;
+    const double* backward_u;
+
+    [[nodiscard]] double displacement(std::size_t k) const { return voice.string.displacement[k] - rest[k]; }
+    [[nodiscard]] double speed(std::size_t k) const {
+        return (voice.string.velocity[k] - backward_q[k] * displacement(k)) / backward_u[k];
+    }
+};
+
+Coordinates coordinates_of(const InstrumentStringModel& string, const Voice& voice) {
+    const StoppedStringModel& stop = string.stopped[voice.fret];
+    const bool bent = voice.bend.active;
+    return {voice, stop.string.shape->rest_displacement.data(),
+            bent ? voice.bend.backward_q.data() : stop.backward_q.data(),
+            bent ? voice.bend.backward_u.data() : stop.backward_u.data()};
+}
+
+/// Adds a displacement and a true velocity to mode k of a voice that is not bent.
+void add_motion(const StoppedStringModel& stop, Voice& voice, std::size_t k, double q, double u) {
+    voice.string.displacement[k] += q;
+    voice.string.velocity[k] = stop.backward_q[k] * q + stop.backward_u[k] * u;
+}
+
+/// After the transfer: `before_J` is the new voice's energy before it.
+void meter_transfer(const InstrumentStringModel& string, const Voice& from, Voice& to, double before_J,
+                    PlayerWork& work) {
+    const StringModel& model = string.stopped[to.fret].string;
+    notice_change(model, to.string);
+    const double gained =
+        energy(model, to.string) - before_J - energy(voice_model(string, from), from.string);
+    if (std::isfinite(gained)) work.transfers_J += gained;
+}
+
 }  // namespace
 
 void carry_over(const InstrumentStringModel& string, const Voice& from, Voice& to,
                 PlayerWork& work) JAWARI_REALTIME {
-    const StringModel& source = voice_model(string, from);
+    const StringShape& source = *voice_model(string, from).shape;
     const StoppedStringModel& stop = string.stopped[to.fret];
-    const double* backward_q =
-        from.bend.active ? from.bend.backward_q.data() : string.stopped[from.fret].backward_q.data();
-    const double* backward_u =
-        from.bend.active ? from.bend.backward_u.data() : string.stopped[from.fret].backward_u.data();
-    const Lengths lengths{source.shape->length_m, stop.string.shape->length_m,
-                          std::min(source.shape->mode_count, transfer_modes),
+    const Coordinates old = coordinates_of(string, from);
+    const Lengths lengths{source.length_m, stop.string.shape->length_m,
+                          std::min(source.mode_count, transfer_modes),
                           std::min(stop.string.shape->mode_count, transfer_modes)};
-    const double scale = std::sqrt(2 / source.shape->length_m);
-    const double before = energy(stop.string, to.string);
+    const double scale = std::sqrt(2 / source.length_m);
+    const double before_J = energy(stop.string, to.string);
     // The backward velocity of the new voice is made of its shape and true velocity, each projected.
     Motion motion;
     for (std::size_t j = 0; j < lengths.from_modes; ++j) {
-        const double q = from.string.displacement[j] - source.shape->rest_displacement[j];
-        const double u = (from.string.velocity[j] - backward_q[j] * q) / backward_u[j];
-        motion.shape[j] = scale * sign_of(j + 1) * q;
-        motion.speed[j] = scale * sign_of(j + 1) * u;
+        motion.shape[j] = scale * sign_of(j + 1) * old.displacement(j);
+        motion.speed[j] = scale * sign_of(j + 1) * old.speed(j);
     }
     const Motion projected = project(lengths, motion);
-    for (std::size_t k = 0; k < lengths.to_modes; ++k) {
-        to.string.displacement[k] += projected.shape[k];
-        to.string.velocity[k] =
-            stop.backward_q[k] * projected.shape[k] + stop.backward_u[k] * projected.speed[k];
-    }
-    notice_change(stop.string, to.string);
-    const double gained = energy(stop.string, to.string) - before - energy(source, from.string);
-    if (std::isfinite(gained)) work.transfers_J += gained;
+    for (std::size_t k = 0; k < lengths.to_modes; ++k)
+        add_motion(stop, to, k, projected.shape[k], projected.speed[k]);
+    meter_transfer(string, from, to, before_J, work);
+}
+
+/// The energy of a mode is mu (u^2 + omega^2 q^2)/2: with the same mu and omega it is that of the same q and
+/// u.
+void keep_partials(const InstrumentStringModel& string, const Voice& from, Voice& to,
+                   PlayerWork& work) JAWARI_REALTIME {
+    const StoppedStringModel& stop = string.stopped[to.fret];
+    const Coordinates old = coordinates_of(string, from);
+    const double before_J = energy(stop.string, to.string);
+    const std::size_t modes =
+        std::min(voice_model(string, from).shape->mode_count, stop.string.shape->mode_count);
+    for (std::size_t k = 0; k < modes; ++k) add_motion(stop, to, k, old.displacement(k), old.speed(k));
+    meter_transfer(string, from, to, before_J, work);
 }
 
 }  // namespace jawari

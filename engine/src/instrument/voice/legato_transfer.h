@@ -16,4 +16,10 @@ inline constexpr std::size_t transfer_modes = 256;
 void carry_over(const InstrumentStringModel& string, const Voice& from, Voice& to,
                 PlayerWork& work) JAWARI_REALTIME;
 
+/// A slide's end: gives `to`, which is at rest at its fret, each partial of `from`, which is bent to the
+/// pitch of that fret, with its energy and phase. A string whose length changes slowly keeps them: no shape
+/// is cut.
+void keep_partials(const InstrumentStringModel& string, const Voice& from, Voice& to,
+                   PlayerWork& work) JAWARI_REALTIME;
+
 }  // namespace jawari

@@ -44,6 +44,18 @@ void make_audible(const StringModel& model, double output_rate_hz, double* row) 
         row[k] *= audible_share(model.tuning.omega[k] / (2 * pi), output_rate_hz);
 }
 
+/// Gain of a low pass of second order whose gain at its resonance is Q.
+double coil_gain(const PickupDescription& pickup, double frequency_hz) {
+    const double r = frequency_hz / pickup.resonance_hz;
+    return 1 / std::hypot(1 - r * r, r / pickup.quality_factor);
+}
+
+void pass_coil(const StringModel& model, const PickupDescription& pickup, double* row) {
+    if (pickup.resonance_hz == 0) return;
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k)
+        row[k] *= coil_gain(pickup, model.tuning.omega[k] / (2 * pi));
+}
+
 double product(const double* row, const AlignedVector<double>& x, std::size_t modes) {
     return kernels::row_product(modes, row, x.data());
 }
@@ -71,6 +83,7 @@ void set_output_rows(StoppedStringModel& stopped, const InstrumentDescription& i
             write_point_row(model, model.shape->stride, x, pickup.width_m, row);
         }
         make_audible(model, output_rate_hz, row);
+        pass_coil(model, pickup, row);
         stopped.pickup_rest.push_back(product(row, model.shape->rest_displacement, model.shape->stride));
     }
     if (instrument.body.empty()) return;

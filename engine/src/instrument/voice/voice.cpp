@@ -19,6 +19,8 @@ namespace {
 constexpr std::uint64_t rest_check_frames = 64;
 /// A finger that comes down on a ringing string has at least this share of its wave impedance.
 constexpr double finger_share = 0.5;
+/// A finger's damping comes and leaves in this part of the rise each.
+constexpr std::uint64_t damping_eases = 4;
 
 void finish(Voice& voice, InstrumentState& state) {
     state.finished += voice.string.counters;
@@ -111,15 +113,21 @@ void strike_with(const FingerDescription& finger, const Strike& strike) {
     const std::uint64_t rise = frames_of(finger.rise_s * times, model.output_rate_hz);
     begin_finger(voice_model(string, voice), voice.touches.exciter, x, exciter.width_m, force, rise,
                  frames_of(finger.release_s * times, model.output_rate_hz));
+    if (finger.roughness > 0) {
+        voice.touches.exciter.roughness = finger.roughness;
+        voice.touches.exciter.seed = next_noise(voice_model(string, voice), voice.touches);
+    }
     const double least = voice.age > 0 ? finger_share * stopped.wave_impedance_kg_per_s : 0.0;
     const double damping = std::max(least, finger.damping_kg_per_s);
     if (damping == 0) return;
+    // It has left when the release begins: a finger that slips off holds nothing.
+    const std::uint64_t ease = std::max<std::uint64_t>(1, rise / damping_eases);
     lay_touch(voice_model(string, voice), voice.string, voice.touches, TouchSlot::Finger,
               {.x_m = x,
                .width_m = exciter.width_m,
                .damping_kg_per_s = damping,
-               .frames = rise,
-               .ease_frames = static_cast<double>(rise) / 2});
+               .frames = rise + 1 - ease,
+               .ease_frames = static_cast<double>(ease)});
 }
 
 void strike_with(const HammerDescription& hammer, const Strike& strike) {
@@ -156,6 +164,7 @@ void reset_voice(Voice& voice) JAWARI_REALTIME {
     voice.channel = 0;
     voice.string.counters = {};
     lift_all_touches(voice.touches);
+    voice.touches.noises = 0;
     forget_bend(voice);
     voice.bend.target = 0;
     voice.slide = {};

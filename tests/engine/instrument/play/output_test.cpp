@@ -156,6 +156,27 @@ TEST(Pickup, QuantitiesMixAndMagnet) {
     EXPECT_NEAR(pickup_signal(model, stopped, voice.string, 1), second + third, 1e-12);
 }
 
+/// A low pass of second order: |H| = 1/|1 - r^2 + i r/Q|, r = f/f0; its level is Q at f0, and 1 far below.
+TEST(Pickup, ACoilWeighsEachPartialAtItsFrequency) {
+    InstrumentDescription instrument = open_string();
+    instrument.pickups = {{.place = {.share = 0.13}},
+                          {.place = {.share = 0.13}, .resonance_hz = 400, .quality_factor = 3}};
+    const InstrumentModel model = compile_instrument(instrument, 48000).value();
+    const StoppedStringModel& stopped = model.strings[0].stopped[0];
+    Voice voice = make_voice(model.strings[0].sizes);
+    start_voice(model, model.strings[0], voice, 0, 0, 0);
+    for (const std::size_t k : {1U, 5U, 9U, 10U, 40U}) {
+        voice.string.velocity[k - 1] = 1;
+        const double plain = pickup_signal(model, stopped, voice.string, 0);
+        const double heard = pickup_signal(model, stopped, voice.string, 1);
+        voice.string.velocity[k - 1] = 0;
+        const double n = static_cast<double>(k);
+        const double f = n * 41.20344461410875 * std::sqrt((1 + 9e-5 * n * n) / (1 + 9e-5));
+        const double re = 1 - f * f / 160000, im = f / 400 / 3;
+        EXPECT_NEAR(heard / plain, 1 / std::sqrt(re * re + im * im), 1e-9) << k;
+    }
+}
+
 /// What a pan does to one and the same note.
 test::Played panned(const InstrumentModel& model, double pan) {
     InstrumentState state = make_instrument_state(model);

@@ -160,6 +160,47 @@ TEST(Pitch, BendsAndSlidesArriveWhereTheyShould) {
     EXPECT_NEAR(cents(frequency_near(hammered, 9600, fifth), fifth), 0, 0.3);
 }
 
+/// 20 lg of the closing level of a slide from key to key over that of the same key played once; and the work
+/// of the transfer.
+struct SlideEnd {
+    double level_db = 0;
+    double transfer_J = 0;
+    double energy_J = 0;
+};
+
+SlideEnd slide_end(int from, int to) {
+    InstrumentDescription bass = test::bass_instrument();
+    bass.strings = {bass.strings[1]};
+    bass.strings[0].damping = NoLoss{};
+    bass.frets.height_m.clear();
+    bass.quality.mode_limit_hz = 3000;
+    bass.pickups = {{.place = {}, .quantity = PickupQuantity::BridgeForce}};
+    const InstrumentModel model = compile_instrument(bass, 48000).value();
+    InstrumentState state = make_instrument_state(model);
+    const double from_hz = 55 * std::exp2((from - 33) / 12.0);
+    const double to_hz = 55 * std::exp2((to - 33) / 12.0);
+    const auto x =
+        play(model, state,
+             {set_parameter(0, ParameterId::Legato, 1), set_parameter(0, ParameterId::SlideTime, 0.1),
+              note_on(0, from, 0.3), note_on(14000, to, 0.3)},
+             38000)
+            .left;
+    // A partial's bridge force is T k pi/L times its amplitude, which a slowly changing length keeps.
+    const double expected = to_hz / from_hz;
+    return {20 * std::log10(level_at(x, 24000, 12000, to_hz) / level_at(x, 1500, 12000, from_hz) / expected),
+            state.work.transfers_J, string_energy(model, state, 0)};
+}
+
+/// The slower a string's length changes, the nearer its partials keep their amplitudes (the adiabatic law:
+/// energy follows frequency), whichever way the hand goes.
+TEST(Slide, KeepsThePartialsAmplitudes) {
+    for (const auto& [from, to] : {std::pair{33, 40}, std::pair{40, 33}, std::pair{35, 36}}) {
+        const SlideEnd end = slide_end(from, to);
+        EXPECT_NEAR(end.level_db, 0, 0.3) << from << " to " << to;
+        EXPECT_LT(std::abs(end.transfer_J), 0.02 * end.energy_J);
+    }
+}
+
 /// A light touch at a third of the string leaves the partials that have a node there.
 TEST(Harmonic, LeavesThePartialsWithANodeUnderTheFinger) {
     const auto plain = mono(free_model(), {note_on(0, 33, 0.3)}, 48000);
@@ -191,6 +232,45 @@ TEST(Release, DecaysInTheTimeThePresetSays) {
         const double t60 = 1.2 * std::pow(2.0, 1 - 2 * velocity);
         const double fall = std::log(level_at(x, 6000, 9600, 55) / level_at(x, 20400, 9600, 55)) / 0.3;
         EXPECT_NEAR(fall - own, std::log(1000.0) / t60, 0.08 * std::log(1000.0) / t60) << velocity;
+    }
+}
+
+/// A string that is lifted slowly by h at x and let go is d'Alembert's: partial k moves with the amplitude 2
+/// h L^2 sin(k pi x/L)/(k^2 pi^2 x (L - x)). What the finger damps while it pulls has ended by then.
+TEST(Finger, HoldsNothingOnceItLetsGo) {
+    InstrumentDescription bass = test::bass_instrument();
+    bass.strings = {bass.strings[1]};
+    bass.strings[0].damping = NoLoss{};
+    bass.frets = {};
+    bass.quality.mode_limit_hz = 3000;
+    const double L = bass.strings[0].length_m, d = 0.16, pickup = 0.3, h = 0.002;
+    bass.exciters[0].body =
+        FingerDescription{.rise_s = 0.1, .release_s = 1e-4, .full_height_m = h, .damping_kg_per_s = 5};
+    bass.pickups = {{.place = {.from_bridge_m = pickup}, .quantity = PickupQuantity::Displacement}};
+    const InstrumentModel model = compile_instrument(bass, 48000).value();
+    InstrumentState state = make_instrument_state(model);
+    const auto x = play(model, state, {note_on(0, 33, 1)}, 48000).left;
+    for (int k = 1; k <= 8; ++k) {
+        const double hz = 55 * k * std::sqrt((1 + 6e-5 * k * k) / (1 + 6e-5));
+        const double shape = 2 * h * L * L * std::sin(k * pi * d / L) / (k * k * pi * pi * d * (L - d));
+        const double amplitude = 0.3 * std::abs(shape * std::sin(k * pi * pickup / L));
+        EXPECT_NEAR(20 * std::log10(level_at(x, 6000, 36000, hz) / amplitude), 0, 0.2) << k;
+    }
+}
+
+/// 60 dB decay time of the first partial under the palm.
+double palm_t60(double mute) {
+    const auto x =
+        mono(free_model(), {set_parameter(0, ParameterId::PalmMute, mute), note_on(0, 33, 0.5)}, 20000);
+    return 3 * 0.15 / std::log10(level_at(x, 2400, 4800, 55) / level_at(x, 9600, 4800, 55));
+}
+
+TEST(Palm, DampsMoreTheFirmerItLiesAllTheWay) {
+    double before = palm_t60(0.05);
+    for (const double mute : {0.2, 0.4, 0.6, 0.8, 1.0}) {
+        const double now = palm_t60(mute);
+        EXPECT_LT(now, 0.87 * before) << mute;
+        before = now;
     }
 }
 
@@ -324,6 +404,44 @@ TEST(Storm, BlockSizeDoesNotChangeABit) {
     };
     const Played whole = performance(12000);
     for (const std::size_t block : {1U, 37U, 512U}) EXPECT_TRUE(performance(block) == whole) << block;
+}
+
+InstrumentDescription noisy_instrument() {
+    InstrumentDescription noisy = test::small_instrument();
+    std::get<FingerDescription>(noisy.exciters[0].body).roughness = 0.3;
+    noisy.hand.release_noise_N = 0.5;
+    return noisy;
+}
+
+TEST(Noise, HasTheSameBitsInAnyBlockAndAfterAReset) {
+    const InstrumentModel model = compile_instrument(noisy_instrument(), 48000).value();
+    const auto events = test::storm(4, 12000, 200);
+    InstrumentState state = make_instrument_state(model);
+    const Played whole = play(model, state, events, 12000, 12000);
+    EXPECT_NE(state.work.noises_J, 0);
+    reset(model, state);
+    EXPECT_TRUE(play(model, state, events, 12000, 37) == whole);
+}
+
+/// A finger on a string at rest makes a sound as it comes; without release_noise_N there is none.
+TEST(Noise, IsHeardAtNoteOffAndFollowsTheReleaseVelocity) {
+    const auto after_release = [](double noise_N, double velocity) {
+        InstrumentDescription bass = test::bass_instrument();
+        bass.strings = {bass.strings[1]};
+        bass.frets = {};
+        bass.hand.release_noise_N = noise_N;
+        bass.hand.release_spread = 2;
+        const InstrumentModel model = compile_instrument(bass, 48000).value();
+        InstrumentState state = make_instrument_state(model);
+        const auto x = play(model, state, {note_on(0, 33, 1e-4), note_off(2000, 33, velocity)}, 6000).left;
+        double sum = 0;
+        for (std::size_t n = 2000; n < 6000; ++n) sum += x[n] * x[n];
+        return std::sqrt(sum);
+    };
+    const double usual = after_release(0.1, 0.5);
+    EXPECT_GT(usual, 20 * after_release(0, 0.5));
+    EXPECT_GT(after_release(0.1, 1), 1.5 * usual);
+    EXPECT_LT(after_release(0.1, 0), 0.7 * usual);
 }
 
 TEST(Storm, EndsInSilenceWithoutAnythingLost) {

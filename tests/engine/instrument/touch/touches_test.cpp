@@ -173,6 +173,101 @@ TEST(Touches, ComeAndLeaveGraduallyAndAreCountedDown) {
     EXPECT_FALSE(state.excitation.active);
 }
 
+// ---------------------------------------------------------------------------------------------- noise
+
+/// The noise's own work and that of the dashpot are all that changes the energy, and the dashpot's stays a
+/// loss.
+TEST(Noise, ItsWorkIsMeteredApartFromWhatTheTouchTakes) {
+    std::mt19937 random(12);
+    const StringModel model = lossless_string(120);
+    for (const double damping : {0.0, 0.3, 50.0}) {
+        StringState state = make_string_state(model);
+        TouchState touches = make_touch_state(model.shape->stride);
+        stir(model, state, random);
+        lay_touch(model, state, touches, TouchSlot::Release,
+                  {.x_m = 0.2, .damping_kg_per_s = damping, .noise_N = 2, .noise_frames = 200});
+        lay_touch(model, state, touches, TouchSlot::Palm, {.x_m = 0.6, .damping_kg_per_s = 0.1});
+        const double start = energy(model, state);
+        PlayerWork work;
+        double taken = 0;
+        for (int frame = 0; frame < 300; ++frame) {
+            play_frame(model, state, touches, work);
+            ASSERT_LE(work.touches_J, taken + 1e-12 * start) << frame;
+            taken = work.touches_J;
+            if (frame == 199) {
+                EXPECT_EQ(touch_at(touches, TouchSlot::Release).noise.level_N, 0);
+            }
+        }
+        EXPECT_NE(work.noises_J, 0);
+        EXPECT_NEAR(energy(model, state), start + work.touches_J + work.noises_J, 1e-10 * start) << damping;
+    }
+}
+
+/// Straight lines between samples at 24 kHz have the spectrum sinc^4(f/24 kHz).
+TEST(Noise, HasTheRmsAndTheSpectrumThatItsLinesHave) {
+    constexpr double rate_hz = 192000;
+    constexpr std::size_t length = 960, parts = 800;
+    double square = 0;
+    for (std::size_t n = 0; n < length * parts; ++n) {
+        const double x = noise_at(77, static_cast<double>(n) / rate_hz);
+        square += x * x / (length * parts);
+    }
+    EXPECT_NEAR(square, 1, 0.02);
+    const auto power = [&](double hz) {
+        double sum = 0;
+        for (std::size_t part = 0; part < parts; ++part) {
+            double re = 0, im = 0;
+            for (std::size_t n = 0; n < length; ++n) {
+                const double x = noise_at(77, static_cast<double>(part * length + n) / rate_hz);
+                re += x * std::cos(2 * pi * hz * static_cast<double>(n) / rate_hz);
+                im += x * std::sin(2 * pi * hz * static_cast<double>(n) / rate_hz);
+            }
+            sum += re * re + im * im;
+        }
+        return sum;
+    };
+    const double low = power(600);
+    for (const double hz : {4000.0, 8000.0, 12000.0}) {
+        const double y = pi * hz / 24000;
+        const double expected = 40 * std::log10(std::sin(y) / y);
+        EXPECT_NEAR(10 * std::log10(power(hz) / low), expected, 0.6) << hz;  // 800 windows: 0.15 dB
+    }
+}
+
+TEST(Noise, NoTwoAreAlike) {
+    double like = 0;
+    for (std::size_t n = 0; n < 20000; ++n) {
+        const double time_s = static_cast<double>(n) / 24000;
+        like += noise_at(1, time_s) * noise_at(2, time_s) / 20000;
+    }
+    EXPECT_LT(std::abs(like), 0.03);
+    const StringModel model = lossless_string(20);
+    TouchState touches = make_touch_state(model.shape->stride);
+    const std::uint64_t first = next_noise(model, touches);
+    EXPECT_NE(next_noise(model, touches), first);
+}
+
+/// With roughness r the force is that of a smooth finger times 1 + r N, whatever the output rate.
+TEST(Noise, OfAFingerIsAShareOfItsForce) {
+    ExciterState smooth, rough;
+    for (ExciterState* exciter : {&smooth, &rough}) {
+        exciter->phase = ExciterPhase::Finger;
+        exciter->peak = 3;
+        exciter->rise_frames = 200;
+        exciter->release_frames = 20;
+    }
+    rough.roughness = 0.25;
+    rough.seed = 5;
+    StringAtExciter at;
+    at.frame_s = 1 / 48000.0;
+    for (int n = 0; n < 220; ++n) {
+        const double plain = exciter_force(at, smooth);
+        EXPECT_NEAR(exciter_force(at, rough), plain * (1 + 0.25 * noise_at(5, (n + 0.5) / 48000)), 1e-11)
+            << n;
+    }
+    EXPECT_EQ(rough.phase, ExciterPhase::None);
+}
+
 // ---------------------------------------------------------------------------------------------- exciters
 
 const HammerDescription felt{.mass_kg = 0.004, .stiffness = 4e8, .exponent = 2.5, .full_speed_m_per_s = 3};

@@ -23,20 +23,20 @@ const std::string valid_preset = R"({
   "exciters": [
     {"name": "finger", "kind": "finger", "position_from_bridge_m": 0.15, "width_m": 0.01, "velocity_range": [0, 0.5],
      "string_range": [0, 3], "time_exponent": 0.5, "rise_s": 0.003, "release_s": 0.001, "full_height_m": 0.002,
-     "height_exponent": 1.5, "damping_kg_per_s": 0.25},
+     "height_exponent": 1.5, "damping_kg_per_s": 0.25, "roughness": 0.125},
     {"name": "hammer", "kind": "hammer", "position_share": 0.125, "mass_kg": 0.005, "stiffness_N_per_m_p": 1e9,
      "exponent": 2.5, "loss_s_per_m": 0.01, "full_speed_m_per_s": 3, "speed_exponent": 1.25,
      "side": "above"},
     {"name": "tangent", "kind": "tangent", "rise_s": 0.002, "full_height_m": 0.001, "height_exponent": 0.75}],
   "hand": {"damps": false, "release_places": [{"position_share": 0.2}, {"position_from_bridge_m": 0.3}], "release_t60_s": 0.2,
-           "release_spread": 3, "palm_place": {"position_share": 0.05}, "palm_t60_s": 0.3, "dead_t60_s": 0.04,
+           "release_spread": 3, "release_noise_N": 0.375, "release_noise_s": 0.0625, "palm_place": {"position_share": 0.05}, "palm_t60_s": 0.3, "dead_t60_s": 0.04,
            "harmonic_t60_s": 0.05, "harmonic_touch_s": 0.25, "legato_level": 0.5, "pressure_semitones": 0.75,
            "course_delay_s": 0.002},
   "frets": {"height_m": [-0.001, -0.002], "restitution": 0.25, "comment": ["also", "allowed"]},
   "obstacles": [{"name": "bridge", "origin": "bridge", "parabola": {"length_m": 0.02, "drop_m": 0.001, "height_m": -0.0001}, "points": 5},
                 {"name": "rattle", "origin": "nut", "side": "above", "profile_m": [[0.3, 0.002], [0.4, 0.003]], "restitution": 0.5, "strings": [0]}],
   "soft_touches": [{"name": "cotton", "position_share": 0.1, "width_m": 0.01, "damping_kg_per_s": 0.125, "stiffness_N_per_m": 100, "strings": [0]}],
-  "pickups": [{"position_from_bridge_m": 0.1, "width_m": 0.02, "level": -2, "magnet_distance_m": 0.003},
+  "pickups": [{"position_from_bridge_m": 0.1, "width_m": 0.02, "level": -2, "magnet_distance_m": 0.003, "resonance_hz": 3000, "quality_factor": 2.5},
               {"quantity": "bridge_force", "level": 0.01}],
   "body": [{"frequency_hz": 100, "t60_s": 0.5, "gain_left": 2, "gain_right": 3},
            {"frequency_hz": 200, "quality_factor": 30, "gain_left": 4}],
@@ -116,6 +116,7 @@ TEST(ReadPreset, EveryKeyOfThePlayersArrives) {
     EXPECT_EQ(finger.full_height_m, 0.002);
     EXPECT_EQ(finger.height_exponent, 1.5);
     EXPECT_EQ(finger.damping_kg_per_s, 0.25);
+    EXPECT_EQ(finger.roughness, 0.125);
     EXPECT_EQ(i.exciters[1].place.share, 0.125);
     const auto& hammer = std::get<HammerDescription>(i.exciters[1].body);
     EXPECT_EQ(hammer.mass_kg, 0.005);
@@ -134,6 +135,8 @@ TEST(ReadPreset, EveryKeyOfThePlayersArrives) {
     EXPECT_EQ(i.hand.release_places[1].from_bridge_m, 0.3);
     EXPECT_EQ(i.hand.release_t60_s, 0.2);
     EXPECT_EQ(i.hand.release_spread, 3);
+    EXPECT_EQ(i.hand.release_noise_N, 0.375);
+    EXPECT_EQ(i.hand.release_noise_s, 0.0625);
     EXPECT_EQ(i.hand.palm_place.share, 0.05);
     EXPECT_EQ(i.hand.palm_t60_s, 0.3);
     EXPECT_EQ(i.hand.dead_t60_s, 0.04);
@@ -166,6 +169,8 @@ TEST(ReadPreset, EveryKeyOfObstaclesAndOutputArrives) {
     EXPECT_EQ(i.pickups[0].width_m, 0.02);
     EXPECT_EQ(i.pickups[0].level, -2);
     EXPECT_EQ(i.pickups[0].magnet_distance_m, 0.003);
+    EXPECT_EQ(i.pickups[0].resonance_hz, 3000);
+    EXPECT_EQ(i.pickups[0].quality_factor, 2.5);
     EXPECT_EQ(i.pickups[1].quantity, PickupQuantity::BridgeForce);
     ASSERT_EQ(i.body.size(), 2U);
     EXPECT_EQ(i.body[0].t60_s, 0.5);
