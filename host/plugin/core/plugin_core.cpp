@@ -33,7 +33,7 @@ std::string stem_of(const std::string& path) {
 
 }  // namespace
 
-PluginCore::PluginCore() {
+PluginCore::PluginCore() : link_(std::make_unique<StageLink>()) {
     for (const ParameterDeclaration& parameter : parameter_table())
         values_[static_cast<std::size_t>(parameter.id)].store(parameter.neutral);
 }
@@ -48,6 +48,7 @@ StageSettings PluginCore::stage_settings(double rate_hz) const {
     settings.most_frames = chunk_frames;
     settings.interpreter = compiled_.interpreter;
     settings.string_outputs = true;
+    settings.link = link_.get();
     return settings;
 }
 

@@ -90,6 +90,9 @@ class PluginCore {
     /// Frees what the audio thread has given back.
     void collect();
 
+    /// To a window of this instance.
+    [[nodiscard]] StageLink& link() { return *link_; }
+
     [[nodiscard]] const PluginState& state() const { return state_; }
     /// Whether the state's model exists: not before a load or an activation.
     [[nodiscard]] bool compiled() const { return compiled_.instrument != nullptr; }
@@ -153,6 +156,7 @@ class PluginCore {
     Quality compiled_quality_ = Quality::Live;
 
     // Shared:
+    std::unique_ptr<StageLink> link_;
     std::array<std::atomic<double>, parameter_count> values_{};
     std::atomic<StagedInstrument*> next_{nullptr};  // on its way to the stage
     boost::lockfree::spsc_queue<StagedInstrument*, boost::lockfree::capacity<most_staged_instruments + 1>>
