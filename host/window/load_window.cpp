@@ -26,20 +26,40 @@ std::string module_path() {
     return {};
 }
 
+using Trouble = std::array<char, 256>;
+
+struct Entry {
+    void (*function)() = nullptr;  ///< null: there is none
+    std::string trouble;
+};
+
+Entry entry_of(const char* symbol) {
+    const std::string path = module_path();
+    if (path.empty()) return {nullptr, std::string("window: ") + module_file + " is not installed"};
+    const auto loaded = platform::load_function(path, symbol);
+    return {loaded.found, "window: " + loaded.trouble};
+}
+
 }  // namespace
 
 bool has_window_module() {
     return !module_path().empty();
 }
 
+MaybeError display_trouble() {
+    const Entry entry = entry_of(find_display_symbol);
+    if (entry.function == nullptr) return Error{ErrorKind::Device, entry.trouble};
+    Trouble trouble{};
+    const auto find = reinterpret_cast<FindDisplayFunction>(entry.function);
+    if (find(trouble.data(), trouble.size())) return std::nullopt;
+    return Error{ErrorKind::Device, std::string("window: ") + trouble.data()};
+}
+
 Outcome<std::unique_ptr<Window>> open_window(const WindowRequest& request, Performance& performance) {
-    const std::string path = module_path();
-    if (path.empty())
-        return Error{ErrorKind::Device, std::string("window: ") + module_file + " is not installed"};
-    const auto function = platform::load_function(path, open_window_symbol);
-    if (!function.found) return Error{ErrorKind::Device, "window: " + function.trouble};
-    const auto open = reinterpret_cast<OpenWindowFunction>(function.found);
-    std::array<char, 256> trouble{};
+    const Entry entry = entry_of(open_window_symbol);
+    if (entry.function == nullptr) return Error{ErrorKind::Device, entry.trouble};
+    Trouble trouble{};
+    const auto open = reinterpret_cast<OpenWindowFunction>(entry.function);
     std::unique_ptr<Window> opened(open(request, performance, trouble.data(), trouble.size()));
     if (opened == nullptr) return Error{ErrorKind::Device, std::string("window: ") + trouble.data()};
     return opened;

@@ -20,7 +20,14 @@ Outcome<std::unique_ptr<Window>> open_window(const WindowRequest& request, Perfo
 /// Whether the module's file is there. Nothing is loaded.
 bool has_window_module();
 
-/// Entry of the module. On failure null, and `trouble` (of `size` bytes) says why.
+/// Why no window can be opened: no module, no display, no OpenGL. Nothing if one can.
+MaybeError display_trouble();
+
+/// Entries of the module. True if there is a display; else `trouble` (of `size` bytes) says why there is
+/// none.
+using FindDisplayFunction = bool (*)(char* trouble, std::size_t size);
+inline constexpr const char* find_display_symbol =
+    "jawari_find_display_1";  /// On failure null, and `trouble` says why.
 using OpenWindowFunction = Window* (*)(const WindowRequest& request, Performance& performance, char* trouble,
                                        std::size_t size);
 inline constexpr const char* open_window_symbol = "jawari_open_window_1";

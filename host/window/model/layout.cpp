@@ -30,7 +30,7 @@ constexpr std::array<Place, 6> places{{{"Mix", 0, 0},
                                        {"Pluck", 1, 0},
                                        {"Left hand", 2, 0},
                                        {"Right hand", 4, 0},
-                                       {"Instrument", 1, rows - 1},
+                                       {"Instrument", 4, rows - 1},
                                        {"", 0, 0}}};
 constexpr std::size_t columns = 5;
 
@@ -46,12 +46,11 @@ void place_controls(Layout& layout) {
         if (place.group.empty()) continue;
         std::size_t column = place.column;
         std::size_t row = place.row;
-        if (row == 0) {
-            Box heading = cell(panel, column, 0);
-            heading.y -= heading_height;
-            heading.height = heading_height;
-            layout.groups.push_back({place.group, heading});
-        }
+        // In the row above its first control.
+        Box heading = cell(panel, column, row);
+        heading.y -= heading_height;
+        heading.height = heading_height;
+        layout.groups.push_back({place.group, heading});
         for (const ParameterDeclaration& parameter : parameter_table()) {
             if (parameter.group != place.group) continue;
             if (row == rows) {

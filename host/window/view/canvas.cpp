@@ -58,6 +58,7 @@ void Canvas::dot(float x, float y, float radius, Colour colour, float opacity) {
 }
 
 float Canvas::text_width(std::string_view text, float size) {
+    if (text.empty()) return 0;
     nanovg_.fontSize(size);
     nanovg_.textAlign(NanoVG::ALIGN_LEFT | NanoVG::ALIGN_MIDDLE);
     DGL_NAMESPACE::Rectangle<float> bounds;
@@ -78,6 +79,7 @@ std::string Canvas::fitted(std::string_view text, float size, float width) {
 
 float Canvas::text(const Box& box, std::string_view text, float size, Colour colour, TextPlace place) {
     const std::string shown = fitted(text, size, box.width);
+    if (shown.empty()) return 0;
     float x = box.x;
     int align = NanoVG::ALIGN_LEFT;
     if (place == TextPlace::Middle) {

@@ -42,23 +42,23 @@ class DglWindow : public Window {
   public:
     DglWindow(const WindowRequest& request, Performance& performance, std::unique_ptr<X11Display> display)
         : performance_(performance), display_(std::move(display)), app_(false), view_(performance) {
-        const double wanted_scale = request.scale > 0 ? request.scale : 1;
+        scale_ = request.scale > 0 ? request.scale : 1;
         WindowSize size = request.size;
-        if (request.parent != 0) {
-            if (size == WindowSize{})
-                size = {pixels(usual_width, wanted_scale), pixels(usual_height, wanted_scale)};
-            window_ = std::make_unique<ClosableWindow>(app_, request.parent, size.width, size.height,
-                                                       wanted_scale, true);
-            scale_ = request.scale > 0 ? request.scale : window_->getScaleFactor();
-        } else {
-            window_ = std::make_unique<ClosableWindow>(app_);
-            scale_ = request.scale > 0 ? request.scale : window_->getScaleFactor();
-            if (size == WindowSize{}) size = {pixels(usual_width, scale_), pixels(usual_height, scale_)};
-            window_->setResizable(true);
+        if (size == WindowSize{}) size = {pixels(usual_width, scale_), pixels(usual_height, scale_)};
+        // 0 as the scale: DPF asks the system.
+        window_ = std::make_unique<ClosableWindow>(app_, request.parent, size.width, size.height,
+                                                   request.scale, true);
+        if (!(request.scale > 0)) {
+            scale_ = window_->getScaleFactor();
+            if (request.size == WindowSize{})
+                size = {pixels(usual_width, scale_), pixels(usual_height, scale_)};
+        }
+        if (request.parent == 0) {
             window_->setGeometryConstraints(pixels(smallest_width, scale_), pixels(smallest_height, scale_));
             window_->setTitle(request.title.c_str());
-            window_->setSize(size.width, size.height);
         }
+        if (window_->getWidth() != size.width || window_->getHeight() != size.height)
+            window_->setSize(size.width, size.height);
         parent_ = request.parent;
         {
             const DGL_NAMESPACE::Window::ScopedGraphicsContext context(*window_);
@@ -145,4 +145,11 @@ extern "C" jawari::host::window::Window* jawari_open_window_1(
     }
     std::snprintf(trouble, size, "%s", why.c_str());
     return nullptr;
+}
+
+extern "C" bool jawari_find_display_1(char* trouble, std::size_t size) {
+    std::string why;
+    if (jawari::host::window::X11Display::open(why)) return true;
+    std::snprintf(trouble, size, "%s", why.c_str());
+    return false;
 }

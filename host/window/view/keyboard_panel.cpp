@@ -36,7 +36,7 @@ void KeyboardPanel::draw_still(Canvas& canvas) {
         const Box inside{key.box.x + 0.5F, key.box.y, key.box.width - 1, key.box.height};
         canvas.box(inside, colour, 2);
         if (key.black) canvas.frame(inside, theme::line, 1, 2);
-        if (!key.black && key.key % 12 == 0 && key.box.width > 12)
+        if (!key.black && has_[index] && key.key % 12 == 0 && key.box.width > 12)
             canvas.text({key.box.x, key.box.bottom() - 16, key.box.width, 14}, note_name(key.key),
                         std::min(theme::small_type, key.box.width * 0.5F), theme::ground, TextPlace::Middle);
         if (shows_focus(0) && key.key == chosen_)

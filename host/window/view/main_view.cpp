@@ -114,7 +114,8 @@ void MainView::draw_tabs(Canvas& canvas) {
     tab(layout.play_tab, "Play", !shared_.setup);
     tab(layout.setup_tab, "Setup", shared_.setup);
     if (!notice_.empty())
-        canvas.text(layout.notice, notice_, theme::small_type, theme::impact);
+        canvas.text(layout.notice, notice_, theme::small_type,
+                    notice_.starts_with("warning") ? theme::impact : theme::text);
     else
         canvas.text(layout.notice, shared_.hint, theme::small_type, theme::quiet);
 }
@@ -134,9 +135,9 @@ void MainView::draw_contactogram(Canvas& canvas) {
     if (contactogram_changed_ || image_ == nullptr) {
         contactogram_changed_ = !contactogram_.is_empty();
         const auto pixels = contactogram_.image();
-        image_ = std::make_unique<DGL_NAMESPACE::NanoImage>(nanovg.createImageFromRGBA(
-            static_cast<unsigned>(impact_places),
-            static_cast<unsigned>(contactogram_rows), pixels.data(), 0));
+        image_ = std::make_unique<DGL_NAMESPACE::NanoImage>(
+            nanovg.createImageFromRGBA(static_cast<unsigned>(impact_places),
+                                       static_cast<unsigned>(contactogram_rows), pixels.data(), 0));
     }
     double longest_m = 0;
     for (const StringLane& lane : places->lanes()) longest_m = std::max(longest_m, lane.length_m);

@@ -12,8 +12,6 @@
 
 namespace jawari::host::window {
 
-
-
 namespace {
 
 double wall_s() {
