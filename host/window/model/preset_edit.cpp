@@ -82,10 +82,17 @@ void add_obstacle(std::vector<Handle>& handles, const ObstacleDescription& obsta
                            name});
 }
 
-/// A place that is given as a share stays one.
-bool set_place(Json& object, double from_bridge_m, double length_m) {
+/// What every stop of a string has: places beyond it are refused. From the bridge.
+double shortest_m(double length_m, const std::vector<double>& fret_from_bridge_m) {
+    double shortest = length_m;
+    for (const double place_m : fret_from_bridge_m) shortest = std::min(shortest, place_m);
+    return shortest;
+}
+
+/// A place that is given as a share of the length stays one.
+bool set_place(Json& object, double from_bridge_m, double length_m, double shortest) {
     if (!object.is_object()) return false;
-    const double place = rounded(std::clamp(from_bridge_m, end_share * length_m, (1 - end_share) * length_m));
+    const double place = rounded(std::clamp(from_bridge_m, end_share * length_m, (1 - end_share) * shortest));
     if (object.contains("position_share"))
         object["position_share"] = place / length_m;
     else
@@ -121,12 +128,13 @@ bool lift_frets(Json& preset, std::size_t string, double length_m, const std::ve
     return true;
 }
 
-bool move_exciter(Json& preset, std::size_t index, std::size_t string, double length_m, const Move& move) {
+bool move_exciter(Json& preset, std::size_t index, std::size_t string, double length_m, double shortest,
+                  const Move& move) {
     Json* const own = entry(preset, "strings", string);
     if (own != nullptr && own->contains("exciter_place"))
-        return set_place((*own)["exciter_place"], move.from_bridge_m, length_m);
+        return set_place((*own)["exciter_place"], move.from_bridge_m, length_m, shortest);
     Json* const exciter = entry(preset, "exciters", index);
-    return exciter != nullptr && set_place(*exciter, move.from_bridge_m, length_m);
+    return exciter != nullptr && set_place(*exciter, move.from_bridge_m, length_m, shortest);
 }
 
 bool move_fret(Json& preset, std::size_t fret, std::size_t string, const Move& move) {
@@ -195,14 +203,15 @@ std::optional<std::string> with_part_moved(const std::string& text, const Instru
                                            const PartName& name, const Move& move) {
     Json preset = Json::parse(text, nullptr, false);
     if (!preset.is_object() || string >= instrument.strings.size()) return std::nullopt;
+    const double shortest = shortest_m(length_m, fret_from_bridge_m);
     bool moved = false;
     switch (name.part) {
         case Part::Exciter:
-            moved = move_exciter(preset, name.index, string, length_m, move);
+            moved = move_exciter(preset, name.index, string, length_m, shortest, move);
             break;
         case Part::Pickup: {
             Json* const pickup = entry(preset, "pickups", name.index);
-            moved = pickup != nullptr && set_place(*pickup, move.from_bridge_m, length_m);
+            moved = pickup != nullptr && set_place(*pickup, move.from_bridge_m, length_m, shortest);
             break;
         }
         case Part::Fret:

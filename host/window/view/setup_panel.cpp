@@ -42,7 +42,16 @@ void SetupPanel::place() {
 /// What was edited is in force, or another preset is.
 void SetupPanel::follow(double /*passed_s*/) {
     const PresetInForce& preset = shared_.performance.preset();
-    if (unsent_ && !shared_.performance.facts().compiling) send();
+    const bool compiling = shared_.performance.facts().compiling;
+    const bool refused = sent_ && !compiling && preset.version == version_;
+    if (refused) {
+        // A notice says why; what plays is drawn again.
+        sent_ = false;
+        edited_.reset();
+        strings_.show(nullptr);
+        find_handles();
+    }
+    if (unsent_ && !compiling) send();
     if (preset.version == version_) return;
     version_ = preset.version;
     const bool is_ours = sent_ && preset.edited;
