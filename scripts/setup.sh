@@ -40,6 +40,11 @@ program      libedit-dev             play: shell
 program      liblo-dev               play: Open Sound Control
 program      python3                 names of the demo pieces
 program?     dpf-source              headers of CLAP and VST 3: the plugin is not built
+program?     libgl-dev               the window is not built
+program?     libx11-dev              the window is not built
+program?     libxext-dev             the window is not built
+program?     libxcursor-dev          the window is not built
+program?     libxrandr-dev           the window is not built
 program?     lv2-dev                 headers of LV2: the plugin is not built as LV2
 python       pybind11-dev            the Python package
 python       python3-dev             Python's headers: the Python package
@@ -73,6 +78,10 @@ test?        lilv-utils              what LV2 hosts see (lv2info): its test is s
 test?        jalv                    LV2 host: live.jalv is skipped
 test?        jackd2                  sound server without hardware: live.* are skipped
 test?        jack-example-tools|jackd2 jack_wait and jack_rec: live.* are skipped
+test?        xvfb                    a display without a screen: window.display is skipped
+test?        xdotool                 mouse and keys: window.display is skipped
+test?        imagemagick             screenshots: window.display is skipped
+test?        libgl1-mesa-dri         OpenGL in software: window.display is skipped
 full         clang                   libFuzzer and sanitizer builds
 full         clang-format            scripts/lint.sh
 full         clang-tidy              scripts/lint.sh

@@ -102,6 +102,17 @@ std::string become_program(const std::vector<std::string>& arguments);
 /// Of this program's file; empty if the system does not say.
 std::string own_path();
 
+/// Of the program or module that has the code at `address`; empty if the system does not say.
+std::string path_of_code(const void* address);
+
+struct LoadedFunction {
+    void (*found)() = nullptr;  ///< null: there is none
+    std::string trouble;        ///< why
+};
+
+/// Of a module that stays loaded from now on; its other names stay its own.
+LoadedFunction load_function(const std::string& module, const char* name);
+
 /// Of this process and of what it starts or becomes.
 void set_environment(const std::string& name, const std::string& value);
 

@@ -2,6 +2,7 @@
 #include "base/platform.h"
 
 #include <arpa/inet.h>
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <netinet/in.h>
 #include <poll.h>
@@ -264,6 +265,26 @@ std::string own_path() {
     if (length <= 0) return {};
     path.resize(static_cast<std::size_t>(length));
     return path;
+}
+
+std::string path_of_code(const void* address) {
+    Dl_info facts{};
+    if (dladdr(address, &facts) == 0 || facts.dli_fname == nullptr) return {};
+    const std::string path = facts.dli_fname;
+    // A program is named as it was called.
+    return path.find('/') == std::string::npos || path.front() != '/' ? std::string() : path;
+}
+
+LoadedFunction load_function(const std::string& module, const char* name) {
+    const auto trouble = [] {
+        const char* const why = dlerror();
+        return std::string(why == nullptr ? "unknown" : why);
+    };
+    void* const loaded = dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+    if (loaded == nullptr) return {nullptr, trouble()};
+    void* const found = dlsym(loaded, name);
+    if (found == nullptr) return {nullptr, trouble()};
+    return {reinterpret_cast<void (*)()>(found), {}};
 }
 
 void set_environment(const std::string& name, const std::string& value) {

@@ -18,6 +18,7 @@ StageSettings settings_of_stage(const LiveSettings& settings) {
     stage.interpreter = settings.interpreter;
     stage.gain = settings.gain;
     stage.ring_out_s = settings.ring_out_s;
+    stage.link = settings.link;
     return stage;
 }
 

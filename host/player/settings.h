@@ -7,6 +7,7 @@
 
 #include "midi/interpreter.h"
 #include "player/governor.h"
+#include "stage/settings.h"
 
 namespace jawari::host {
 
@@ -22,6 +23,7 @@ struct LiveSettings {
     std::optional<double> limiter_dbfs;  ///< ceiling; delays everything by limiter_look_ahead_s
     double ring_out_s = 10;  ///< longest time that an instrument sounds on after another took its place
     OverloadSettings overload;
+    StageLink* link = nullptr;  ///< to a window; null: there is none. Outlives the player
     std::int64_t (*clock)() noexcept = steady_clock_ns;  ///< measures how long blocks take
 };
 

@@ -1,6 +1,8 @@
 #include "stage/stage.h"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -23,6 +25,7 @@ Stage::Stage(const StageSettings& settings)
     : settings_(settings),
       interpreter_(make_interpreter(settings.interpreter)),
       fresh_(interpreter_),
+      watch_(settings.rate_hz),
       gain_(settings.gain),
       gain_target_(settings.gain) {
     events_.reserve(most_events);
@@ -67,6 +70,12 @@ void Stage::add_actions(std::size_t frame) JAWARI_REALTIME {
     for (std::size_t i = 0; i < actions_.count; ++i) add(actions_.events[i], frame);
 }
 
+void Stage::take_window_events() JAWARI_REALTIME {
+    if (settings_.link == nullptr) return;
+    InstrumentEvent event;
+    while (room() > 0 && settings_.link->next_event(event)) add(event, 0);
+}
+
 void Stage::add(InstrumentEvent event, std::size_t frame) JAWARI_REALTIME {
     // As make_score(): in guitar mode, other channels have no strings.
     const bool guitar = interpreter_.settings.guitar_channel >= 0;
@@ -82,6 +91,38 @@ void Stage::add(InstrumentEvent event, std::size_t frame) JAWARI_REALTIME {
 // ---------------------------------------------------------------------------------------------- sound
 
 void Stage::render(const StageOutput& output, std::size_t begin, std::size_t frames) JAWARI_REALTIME {
+    const bool watched = settings_.link != nullptr && settings_.link->is_open();
+    if (watched_ && !watched)
+        for (StagedInstrument* one : sounding()) watch_.close(one);
+    watched_ = watched;
+    if (watched && sounding_ > 0)
+        render_watched(output, begin, frames);
+    else
+        render_part(output, begin, frames);
+}
+
+/// In parts, between which strings are looked at: the sound is the same.
+void Stage::render_watched(const StageOutput& output, std::size_t begin, std::size_t frames) JAWARI_REALTIME {
+    using Clock = std::chrono::steady_clock;
+    const auto started = Clock::now();
+    std::array<double*, most_string_channels> strings{};
+    const std::size_t channels = std::min(output.strings.size(), strings.size());
+    for (std::size_t done = 0; done < frames;) {
+        const std::size_t count = std::min(frames - done, watch_.frames_to_look(frame_));
+        StageOutput part{output.left + done, output.right + done, {}};
+        for (std::size_t s = 0; s < channels; ++s) strings[s] = output.strings[s] + done;
+        part.strings = {strings.data(), channels};
+        render_part(part, begin + done, count);
+        watch_.hear(part.left, part.right, count);
+        done += count;
+        watch_.look(*stage_[0], frame_);
+        if (done < frames) watch_.publish(*settings_.link, *stage_[0], frame_);
+    }
+    watch_.add_load(frames, std::chrono::duration<double>(Clock::now() - started).count());
+    watch_.publish(*settings_.link, *stage_[0], frame_);
+}
+
+void Stage::render_part(const StageOutput& output, std::size_t begin, std::size_t frames) JAWARI_REALTIME {
     std::fill(output.left, output.left + frames, 0.0);
     std::fill(output.right, output.right + frames, 0.0);
     for (double* const string : output.strings) std::fill(string, string + frames, 0.0);

@@ -14,6 +14,8 @@
 #include "jawari/realtime.h"
 #include "midi/interpreter.h"
 #include "stage/settings.h"
+#include "stage/stage_link.h"
+#include "stage/stage_watch.h"
 #include "stage/staged_instrument.h"
 
 namespace jawari::host {
@@ -21,12 +23,16 @@ namespace jawari::host {
 /// Instruments that a stage may hold: waiting, playing, ringing out, given back.
 inline constexpr std::size_t most_staged_instruments = 16;
 
+/// Largest number of StageOutput::strings.
+inline constexpr std::size_t most_string_channels = 16;
+
 /// Where a stage renders to. Everything is overwritten.
 struct StageOutput {
     double* left = nullptr;   ///< full scale is 1
     double* right = nullptr;  ///< full scale is 1
     /// Empty, or channels for what each string gives to the sound, without pan: string n plays on channel n,
-    /// all that have none of their own on the last. Needs StageSettings::string_outputs.
+    /// all that have none of their own on the last; at most most_string_channels. Needs
+    /// StageSettings::string_outputs.
     std::span<double* const> strings;
 };
 
@@ -93,7 +99,7 @@ class Stage {
     /// Takes the stage as soon as there is a place. One that still waits for it is given back unheard.
     void call(StagedInstrument* instrument) JAWARI_REALTIME;
     /// At the start of a block: whoever waits enters, if there is a place. Controllers, bends and parameters
-    /// carry over.
+    /// carry over. Events of the window count from here.
     void take_stage() JAWARI_REALTIME;
     /// At the end of a block: instruments that have rung out leave.
     void retire_silent() JAWARI_REALTIME;
@@ -121,6 +127,9 @@ class Stage {
     static constexpr std::size_t most_sounding = 4;
 
     void add_actions(std::size_t frame) JAWARI_REALTIME;
+    void take_window_events() JAWARI_REALTIME;
+    void render_part(const StageOutput& output, std::size_t begin, std::size_t frames) JAWARI_REALTIME;
+    void render_watched(const StageOutput& output, std::size_t begin, std::size_t frames) JAWARI_REALTIME;
     void retire(StagedInstrument* instrument) JAWARI_REALTIME;
     void follow_gain(std::size_t frames) JAWARI_REALTIME;
     void select_events(bool plays, std::size_t begin, std::size_t end) JAWARI_REALTIME;
@@ -147,6 +156,9 @@ class Stage {
 
     std::vector<InstrumentEvent> events_;  // of the block, in order; room is reserved
     std::vector<InstrumentEvent> chunk_;   // those of a part of the block, for one instrument
+
+    StageWatch watch_;
+    bool watched_ = false;  // while a window is open
 
     double gain_ = 1;
     double gain_target_ = 1;

@@ -36,6 +36,7 @@ void Stage::call(StagedInstrument* instrument) JAWARI_REALTIME {
 
 /// While as many instruments sound as may, the oldest fades first.
 void Stage::take_stage() JAWARI_REALTIME {
+    take_window_events();
     if (waiting_ == nullptr) return;
     if (sounding_ == most_sounding) {
         stage_[sounding_ - 1]->fading = true;
@@ -70,7 +71,8 @@ void Stage::retire_silent() JAWARI_REALTIME {
 }
 
 bool Stage::rests() const JAWARI_REALTIME {
-    return waiting_ == nullptr && gain_ == gain_target_ &&
+    const bool asked = settings_.link != nullptr && settings_.link->has_events();
+    return waiting_ == nullptr && !asked && gain_ == gain_target_ &&
            std::all_of(stage_.begin(), stage_.begin() + static_cast<std::ptrdiff_t>(sounding_),
                        [](const StagedInstrument* one) { return at_rest(one->state); });
 }

@@ -11,6 +11,7 @@
 #include "jawari/instrument/description.h"
 #include "jawari/instrument/events.h"
 #include "jawari/instrument/model.h"
+#include "jawari/instrument/motion.h"
 #include "jawari/instrument/qualities.h"
 #include "jawari/instrument/render.h"
 #include "jawari/instrument/state.h"

@@ -43,14 +43,15 @@ Outcome<LiveSettings> live_settings(const PlayOptions& options, const Instrument
 }  // namespace
 
 Outcome<std::unique_ptr<PlayControl>> PlayControl::create(const PlayOptions& options, double rate_hz,
-                                                          std::size_t frames) {
+                                                          std::size_t frames, StageLink& link) {
     auto instruments = instrument_settings(options.instrument, rate_hz);
     if (!instruments) return instruments.error();
     instruments.value().lower_qualities = !options.fixed_quality.value_or(false);
     const auto preset = load_with(first_preset(options), instruments.value());
     if (!preset) return preset.error();
-    const auto live = live_settings(options, preset.value().instrument, rate_hz, frames);
+    auto live = live_settings(options, preset.value().instrument, rate_hz, frames);
     if (!live) return live.error();
+    live.value().link = &link;
 
     std::unique_ptr<PlayControl> control(new PlayControl(live.value(), std::move(instruments.value())));
     control->guitar_channel_ = guitar_channel(options.instrument, preset.value().instrument);
@@ -76,9 +77,13 @@ MaybeError PlayControl::check_guitar(const InstrumentDescription& instrument) co
 MaybeError PlayControl::play_preset(const std::string& preset) {
     const auto instrument = load_and_compile(preset, instruments_);
     if (!instrument) return instrument.error();
-    if (auto error = check_guitar(instrument.value()->preset.instrument)) return error;
+    return play_compiled(preset, instrument.value());
+}
+
+MaybeError PlayControl::play_compiled(const std::string& preset, const SharedInstrument& instrument) {
+    if (auto error = check_guitar(instrument->preset.instrument)) return error;
     constexpr int most_attempts = 100;
-    for (int attempt = 0; !player_.publish(instrument.value()); ++attempt) {
+    for (int attempt = 0; !player_.publish(instrument); ++attempt) {
         if (attempt == most_attempts) return Error{ErrorKind::Device, "the audio thread takes no instrument"};
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
         player_.collect();

@@ -17,8 +17,9 @@ namespace jawari::host {
 class PlayControl {
   public:
     /// Reads every file that the options name and compiles the instrument. `frames`: of the device's blocks.
+    /// `link`: to a window, outlives everything.
     static Outcome<std::unique_ptr<PlayControl>> create(const PlayOptions& options, double rate_hz,
-                                                        std::size_t frames);
+                                                        std::size_t frames, StageLink& link);
 
     LivePlayer& player() { return player_; }
     [[nodiscard]] double rate_hz() const { return instruments_.output_rate_hz; }
@@ -27,6 +28,10 @@ class PlayControl {
 
     /// Compiles it, which may take a second, while the old one plays on.
     MaybeError play_preset(const std::string& preset);
+    /// The same with what was compiled before, by settings().
+    MaybeError play_compiled(const std::string& preset, const SharedInstrument& instrument);
+    /// How instruments are compiled.
+    [[nodiscard]] const InstrumentSettings& settings() const { return instruments_; }
 
     MaybeError set_parameter(ParameterId parameter, double value);
     MaybeError set_gain(double gain_db);

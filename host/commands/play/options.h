@@ -27,6 +27,7 @@ struct PlayOptions {
     std::optional<bool> monitor;
     std::optional<bool> retry;  ///< go on without the device until it is back
     std::optional<bool> lock_memory;
+    std::optional<bool> window;  ///< with a window
 
     // Of one performance: not in the file.
     std::string record, record_midi;  ///< empty: none

@@ -12,6 +12,7 @@
 #include "commands/play/console.h"
 #include "commands/play/osc_server.h"
 #include "commands/play/session.h"
+#include "commands/play/session_window.h"
 #include "instrument/preset_library.h"
 
 namespace jawari::host {
@@ -50,8 +51,9 @@ std::vector<std::string> preset_names() {
 /// The loop of the control thread.
 class Conductor {
   public:
-    Conductor(Session& session, Console& console, OscServer* osc)
-        : session_(session), console_(console), osc_(osc) {}
+    /// `osc`, `window`: null if there is none.
+    Conductor(Session& session, Console& console, OscServer* osc, SessionWindow* window)
+        : session_(session), console_(console), osc_(osc), window_(window) {}
 
     MaybeError run() {
         while (!interruption() && !is_over()) {
@@ -60,6 +62,7 @@ class Conductor {
                 osc_->take_packets([this](const VerbCall& call) { return execute_remote(call); });
             take_command();
             if (auto error = session_.tick()) return error;
+            if (window_ != nullptr) window_->tick();
             draw_status();
         }
         return std::nullopt;
@@ -68,6 +71,7 @@ class Conductor {
   private:
     /// After the last command of a pipe the notes that it asked for are heard to their ends.
     [[nodiscard]] bool is_over() const {
+        if (window_ != nullptr) return session_.wants_to_end() || window_->is_closed();
         return session_.wants_to_end() || (console_.at_end() && !is_paused() && !session_.has_notes());
     }
     [[nodiscard]] bool is_paused() const { return paused_until_ && Clock::now() < *paused_until_; }
@@ -121,6 +125,7 @@ class Conductor {
     Session& session_;
     Console& console_;
     OscServer* osc_;
+    SessionWindow* window_;
     std::optional<Clock::time_point> paused_until_;
     Clock::time_point status_drawn_;
 };
@@ -140,7 +145,9 @@ MaybeError play(const PlayOptions& options) {
     }
     const MutedCerr muted;
     std::unique_ptr<Console> console;
-    const auto say = [&console](const std::string& line) {
+    std::unique_ptr<SessionWindow> window;
+    const auto say = [&console, &window](const std::string& line) {
+        if (window) window->tell(line);
         if (console)
             console->say(line);
         else
@@ -148,8 +155,14 @@ MaybeError play(const PlayOptions& options) {
     };
     Session session(wanted, say);
     if (auto error = session.open()) return error;
+    if (wanted.window.value_or(false)) {
+        auto opened = SessionWindow::open(session);
+        if (!opened) return opened.error();
+        window = std::move(opened.value());
+    }
     console = std::make_unique<Console>(wanted.shell.value_or(true), preset_names);
-    auto error = Conductor(session, *console, osc ? &*osc : nullptr).run();
+    auto error = Conductor(session, *console, osc ? &*osc : nullptr, window.get()).run();
+    window.reset();
     console.reset();
     if (auto failed = session.close(); failed && !error) return failed;
     return error;

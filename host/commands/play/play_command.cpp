@@ -34,6 +34,7 @@ std::string footer() {
            " (docs/commands/play.md); the command line overrides them.\n\n"
            "Examples:\n"
            "  jawari play\n"
+           "  jawari play --ui --preset sitar\n"
            "  jawari play --preset bass-fretted --midi-in keystation --record take.wav\n"
            "  jawari play --audio alsa --audio-device USB --frames 64 --lock-memory\n"
            "  jawari play --no-shell --osc-port 7770 --preset guitar-12\n"
@@ -41,7 +42,7 @@ std::string footer() {
            "Exit codes: 0 ended by quit, the end of the commands, SIGINT, SIGTERM or SIGHUP; 2 wrong command "
            "line;\n"
            "3 invalid input file; 4 a file cannot be read or written; 5 internal error; 6 audio or MIDI "
-           "device.";
+           "device, or no display for --ui.";
 }
 
 std::map<std::string, std::string> system_words(const std::vector<std::string>& words) {
@@ -98,6 +99,8 @@ void add_control_options(CLI::App& app, PlayOptions& options) {
     app.add_flag("--force", options.overwrite, "Recordings may overwrite files");
     add_flag(app, "-i,--no-shell", options.shell, false,
              "Read no commands, run until a signal arrives: for services");
+    add_flag(app, "--ui", options.window, true,
+             "With a window: the strings as they move, every parameter, presets (docs/window.md)");
     add_flag(app, "--monitor", options.monitor, true, "Print every MIDI message in words");
     add_whole(app, "--osc-port", options.osc_port, 1, 65535, "",
               "Accept commands as OSC messages on this UDP port")

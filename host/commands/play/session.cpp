@@ -97,7 +97,7 @@ void Session::await_first_block() const {
 
 MaybeError Session::make_performance() {
     const AudioFacts& facts = audio_.facts();
-    auto control = PlayControl::create(options_, facts.rate_hz, facts.frames);
+    auto control = PlayControl::create(options_, facts.rate_hz, facts.frames, *link_);
     if (!control) return control.error();
     control_ = std::move(control.value());
     monitor_ = options_.monitor.value_or(false);

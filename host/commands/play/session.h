@@ -50,6 +50,13 @@ class Session {
     /// What the status line says now.
     StatusFacts status();
 
+    /// Once it is open.
+    PlayControl& control() { return *control_; }
+    /// To a window.
+    StageLink& link() { return *link_; }
+    [[nodiscard]] bool sounds() const { return audio_.is_open(); }
+    [[nodiscard]] const LiveStatistics& latest() const { return latest_; }
+
   private:
     MaybeError make_performance();
     MaybeError connect_midi();
@@ -76,6 +83,7 @@ class Session {
 
     PlayOptions options_;
     Say say_;
+    std::unique_ptr<StageLink> link_ = std::make_unique<StageLink>();
     AudioLink audio_;
     std::unique_ptr<PlayControl> control_;
     std::unique_ptr<LiveRecorder> recorder_;

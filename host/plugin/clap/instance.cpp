@@ -25,6 +25,8 @@ bool init(const clap_plugin_t* plugin) {
     instance.extensions.params = static_cast<const clap_host_params_t*>(ask(CLAP_EXT_PARAMS));
     instance.extensions.state = static_cast<const clap_host_state_t*>(ask(CLAP_EXT_STATE));
     instance.extensions.log = static_cast<const HostLog*>(ask(log_id));
+    instance.extensions.gui = static_cast<const clap_host_gui_t*>(ask(CLAP_EXT_GUI));
+    instance.extensions.timer = static_cast<const clap_host_timer_support_t*>(ask(CLAP_EXT_TIMER_SUPPORT));
     const void* load = ask(preset_load_id);
     if (load == nullptr) load = ask(preset_load_draft_id);
     instance.extensions.preset_load = static_cast<const HostPresetLoad*>(load);
@@ -78,7 +80,7 @@ struct Extension {
 };
 
 const void* get_extension(const clap_plugin_t* /*plugin*/, const char* id) {
-    static constexpr std::array<Extension, 9> extensions{{
+    static constexpr std::array<Extension, 11> extensions{{
         {CLAP_EXT_AUDIO_PORTS, audio_ports_extension},
         {CLAP_EXT_NOTE_PORTS, note_ports_extension},
         {CLAP_EXT_PARAMS, params_extension},
@@ -88,6 +90,8 @@ const void* get_extension(const clap_plugin_t* /*plugin*/, const char* id) {
         {render_id, render_extension},
         {preset_load_id, preset_load_extension},
         {preset_load_draft_id, preset_load_extension},
+        {CLAP_EXT_GUI, gui_extension},
+        {CLAP_EXT_TIMER_SUPPORT, timer_extension},
     }};
     for (const Extension& each : extensions)
         if (id != nullptr && std::strcmp(each.id, id) == 0) return each.get();

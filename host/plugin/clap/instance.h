@@ -1,13 +1,18 @@
 // One instance as a CLAP host sees it.
 #pragma once
 
+#include <clap/ext/gui.h>
 #include <clap/ext/params.h>
 #include <clap/ext/state.h>
+#include <clap/ext/timer-support.h>
 #include <clap/plugin.h>
 
+#include <boost/lockfree/spsc_queue.hpp>
 #include <cstdint>
+#include <memory>
 
 #include "plugin/clap/extensions.h"
+#include "plugin/clap/gui.h"
 #include "plugin/core/guarded.h"
 #include "plugin/core/plugin_core.h"
 
@@ -24,6 +29,8 @@ struct HostExtensions {
     const clap_host_state_t* state = nullptr;
     const HostPresetLoad* preset_load = nullptr;
     const HostLog* log = nullptr;
+    const clap_host_gui_t* gui = nullptr;
+    const clap_host_timer_support_t* timer = nullptr;
 };
 
 struct Instance {
@@ -35,6 +42,9 @@ struct Instance {
     double rate_hz = 48000;
     std::int64_t next_steady_time =
         -1;  ///< of the audio thread: where the next block begins if none is left out
+    /// What the window does to parameters, on its way to the host's automation.
+    boost::lockfree::spsc_queue<Edit, boost::lockfree::capacity<256>> edits;
+    std::unique_ptr<Gui> gui;  ///< while there is a window
 };
 
 inline Instance& instance_of(const clap_plugin_t* plugin) {
@@ -59,6 +69,8 @@ const void* latency_extension();
 const void* tail_extension();
 const void* render_extension();
 const void* preset_load_extension();
+const void* gui_extension();
+const void* timer_extension();
 
 /// What entry.cpp offers beside the plugin.
 const PresetDiscoveryFactory& discovery_factory();

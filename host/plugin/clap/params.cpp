@@ -74,8 +74,9 @@ void set_inactive(PluginCore& core, const clap_input_events_t& events) {
     }
 }
 
-void flush(const clap_plugin_t* plugin, const clap_input_events_t* in, const clap_output_events_t* /*out*/) {
+void flush(const clap_plugin_t* plugin, const clap_input_events_t* in, const clap_output_events_t* out) {
     Instance& instance = instance_of(plugin);
+    report_edits(instance, out);
     if (in == nullptr) return;
     if (!instance.active) {
         set_inactive(instance.core, *in);

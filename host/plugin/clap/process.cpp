@@ -145,6 +145,32 @@ void take_events(PluginCore& core, const clap_input_events_t* events) {
         if (const clap_event_header_t* const header = events->get(events, i)) take_event(core, *header);
 }
 
+void report_edits(Instance& instance, const clap_output_events_t* events) {
+    Edit edit;
+    while (instance.edits.pop(edit)) {
+        if (events == nullptr) continue;
+        const auto id = static_cast<clap_id>(edit.parameter);
+        if (edit.kind == Edit::Kind::Value) {
+            const clap_event_param_value_t event{
+                {sizeof event, 0, CLAP_CORE_EVENT_SPACE_ID, CLAP_EVENT_PARAM_VALUE, CLAP_EVENT_IS_LIVE},
+                id,
+                nullptr,
+                -1,
+                -1,
+                -1,
+                -1,
+                edit.value};
+            events->try_push(events, &event.header);
+            continue;
+        }
+        const std::uint16_t type =
+            edit.kind == Edit::Kind::Begin ? CLAP_EVENT_PARAM_GESTURE_BEGIN : CLAP_EVENT_PARAM_GESTURE_END;
+        const clap_event_param_gesture_t event{
+            {sizeof event, 0, CLAP_CORE_EVENT_SPACE_ID, type, CLAP_EVENT_IS_LIVE}, id};
+        events->try_push(events, &event.header);
+    }
+}
+
 clap_process_status process_block(const clap_plugin_t* plugin, const clap_process_t* process) {
     Instance& instance = instance_of(plugin);
     if (!instance.active) return CLAP_PROCESS_ERROR;
@@ -153,6 +179,7 @@ clap_process_status process_block(const clap_plugin_t* plugin, const clap_proces
     take_events(core, process->in_events);
     if (core.end_block()) instance.host->request_callback(instance.host);
     report_ended_notes(core, *process);
+    report_edits(instance, process->out_events);
     return core.rests() ? CLAP_PROCESS_SLEEP : CLAP_PROCESS_CONTINUE;
 }
 

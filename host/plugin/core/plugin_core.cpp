@@ -33,7 +33,7 @@ std::string stem_of(const std::string& path) {
 
 }  // namespace
 
-PluginCore::PluginCore() {
+PluginCore::PluginCore() : link_(std::make_unique<StageLink>()) {
     for (const ParameterDeclaration& parameter : parameter_table())
         values_[static_cast<std::size_t>(parameter.id)].store(parameter.neutral);
 }
@@ -48,6 +48,7 @@ StageSettings PluginCore::stage_settings(double rate_hz) const {
     settings.most_frames = chunk_frames;
     settings.interpreter = compiled_.interpreter;
     settings.string_outputs = true;
+    settings.link = link_.get();
     return settings;
 }
 
@@ -133,8 +134,36 @@ MaybeError PluginCore::load(std::string_view text) {
     return load(state.value());
 }
 
+CompileOrder PluginCore::compile_order() const {
+    CompileOrder order{state_, offline_ ? state_.offline_quality : state_.quality, rate_hz_, loads_};
+    for (const ParameterDeclaration& parameter : parameter_table())
+        order.state.parameters[static_cast<std::size_t>(parameter.id)] = value(parameter.id);
+    return order;
+}
+
+bool PluginCore::fits(const CompileOrder& order) const {
+    const Quality quality = offline_ ? state_.offline_quality : state_.quality;
+    return order.rate_hz == rate_hz_ && order.quality == quality && order.loads == loads_;
+}
+
+MaybeError PluginCore::load_compiled(const CompileOrder& order, CompiledState compiled) {
+    collect();
+    if (active_ && published_ == most_staged_instruments)
+        return Error{ErrorKind::Usage, "too many changes wait for the host's next block"};
+    compiled_ = std::move(compiled);
+    compiled_rate_hz_ = order.rate_hz;
+    compiled_quality_ = order.quality;
+    state_ = order.state;
+    const bool neutral = order.state.parameters == neutral_parameters();
+    for (const ParameterDeclaration& parameter : parameter_table())
+        if (neutral) set_value(parameter.id, parameter.neutral);
+    if (active_) publish();
+    return std::nullopt;
+}
+
 MaybeError PluginCore::load(const PluginState& state) {
     if (auto error = put(state, offline_, rate_hz_)) return error;
+    loads_ += 1;
     for (const ParameterDeclaration& parameter : parameter_table())
         set_value(parameter.id, state.parameters[static_cast<std::size_t>(parameter.id)]);
     return std::nullopt;

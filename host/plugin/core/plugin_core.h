@@ -46,6 +46,14 @@ enum class PluginExpression {
     Pan          ///< 0 (left) to 1 (right), 0.5 is neutral: added to the note's place
 };
 
+/// What compile_state() is to be asked for so that PluginCore::load_compiled() takes the answer.
+struct CompileOrder {
+    PluginState state;  ///< with the parameters in force; its preset may be replaced
+    Quality quality = Quality::Live;
+    double rate_hz = 48000;
+    std::uint64_t loads = 0;  ///< by others, before
+};
+
 /// Threads: the control thread (the host's main thread) and the audio thread, each one at a time; both at
 /// once. A call of the other section while inactive or between blocks is safe if the host orders the calls.
 class PluginCore {
@@ -79,6 +87,16 @@ class PluginCore {
     /// map (.kbm), a tuning of all keys (.tun).
     MaybeError load_file(const std::string& path);
 
+    /// For compiling a preset beside the control thread, while the state stays as it is.
+    [[nodiscard]] CompileOrder compile_order() const;
+    /// Rate, quality and everything but the preset are still what they were at compile_order().
+    [[nodiscard]] bool fits(const CompileOrder& order) const;
+    /// load() of what was compiled beforehand. Parameters that have changed meanwhile stay, unless the
+    /// order's are neutral. Precondition: fits().
+    MaybeError load_compiled(const CompileOrder& order, CompiledState compiled);
+    /// Of the state, null before it is compiled.
+    [[nodiscard]] const SharedInstrument& instrument() const { return compiled_.instrument; }
+
     /// Offline the state's offline quality is in force.
     MaybeError set_offline(bool offline);
 
@@ -89,6 +107,9 @@ class PluginCore {
 
     /// Frees what the audio thread has given back.
     void collect();
+
+    /// To a window of this instance.
+    [[nodiscard]] StageLink& link() { return *link_; }
 
     [[nodiscard]] const PluginState& state() const { return state_; }
     /// Whether the state's model exists: not before a load or an activation.
@@ -150,9 +171,11 @@ class PluginCore {
     double rate_hz_ = 48000;
     CompiledState compiled_;  // of state_, at the two below; null: not yet
     double compiled_rate_hz_ = 0;
+    std::uint64_t loads_ = 0;  // of states, but for load_compiled()
     Quality compiled_quality_ = Quality::Live;
 
     // Shared:
+    std::unique_ptr<StageLink> link_;
     std::array<std::atomic<double>, parameter_count> values_{};
     std::atomic<StagedInstrument*> next_{nullptr};  // on its way to the stage
     boost::lockfree::spsc_queue<StagedInstrument*, boost::lockfree::capacity<most_staged_instruments + 1>>

@@ -1,6 +1,7 @@
 // Parameters as the host's controls show them, and which controllers of MIDI they are.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <optional>
 #include <string>
 
@@ -9,6 +10,7 @@
 #include "plugin/vst3/instance.h"
 #include "plugin/vst3/parameters.h"
 #include "plugin/vst3/text16.h"
+#include "plugin/vst3/view.h"
 
 namespace jawari::host::vst3 {
 
@@ -176,8 +178,9 @@ v3_result set_component_handler(void* self, v3_component_handler** handler) {
     return V3_OK;
 }
 
-v3_plugin_view** create_view(void* /*self*/, const char* /*name*/) {
-    return nullptr;
+v3_plugin_view** create_view(void* self, const char* name) {
+    const bool known = name != nullptr && std::strcmp(name, "editor") == 0;
+    return known ? create_plugin_view(instance_of(self)) : nullptr;
 }
 
 v3_result get_midi_controller_assignment(void* /*self*/, std::int32_t bus, std::int16_t channel,

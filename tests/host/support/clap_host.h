@@ -7,6 +7,7 @@
 #include <clap/ext/note-ports.h>
 #include <clap/ext/params.h>
 #include <clap/ext/state.h>
+#include <clap/ext/timer-support.h>
 #include <clap/plugin-factory.h>
 #include <dlfcn.h>
 #include <gtest/gtest.h>
@@ -173,6 +174,8 @@ class ClapInstance {
         clap_output_events_t out{
             this, [](const clap_output_events_t* list, const clap_event_header_t* event) {
                 auto* self = static_cast<ClapInstance*>(list->ctx);
+                if (event->type >= CLAP_EVENT_PARAM_VALUE && event->type <= CLAP_EVENT_PARAM_GESTURE_END)
+                    self->edits.push_back(event->type);
                 if (event->type == CLAP_EVENT_NOTE_END)
                     self->ended.push_back(*reinterpret_cast<const clap_event_note_t*>(event));
                 return true;
@@ -239,6 +242,8 @@ class ClapInstance {
     std::vector<float> left, right;
     std::array<std::vector<float>, 16> strings;
     std::vector<clap_event_note_t> ended;
+    std::vector<std::uint16_t> edits;  ///< types of what the plugin's window did to parameters
+    clap_id timer = CLAP_INVALID_ID;   ///< that runs
     std::atomic<int> callbacks{0};
     int value_rescans = 0, other_rescans = 0, dirty_marks = 0, loaded_presets = 0, preset_errors = 0;
     std::string log;
@@ -266,6 +271,17 @@ class ClapInstance {
             [](const clap_host_t* host, std::uint32_t, const char*, const char*) {
                 self(host).loaded_presets++;
             }};
+        static const clap_host_timer_support_t timers{
+            [](const clap_host_t* host, std::uint32_t, clap_id* timer) {
+                *timer = self(host).timer = 7;
+                return true;
+            },
+            [](const clap_host_t* host, clap_id timer) {
+                const bool ran = self(host).timer == timer;
+                self(host).timer = CLAP_INVALID_ID;
+                return ran;
+            }};
+        if (std::strcmp(id, CLAP_EXT_TIMER_SUPPORT) == 0) return &timers;
         if (std::strcmp(id, CLAP_EXT_PARAMS) == 0) return &params;
         if (std::strcmp(id, CLAP_EXT_STATE) == 0) return &state;
         if (std::strcmp(id, host::clap::log_id) == 0) return &log;

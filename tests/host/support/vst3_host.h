@@ -254,9 +254,18 @@ class Vst3Instance {
         ask(v3_audio_processor_iid, processor);
         ask(v3_edit_controller_iid, controller);
         static constexpr HandlerTable table{HostObject<v3_funknown>::unknown,
-                                            {[](void*, v3_param_id) -> v3_result { return V3_OK; },
-                                             [](void*, v3_param_id, double) -> v3_result { return V3_OK; },
-                                             [](void*, v3_param_id) -> v3_result { return V3_OK; },
+                                            {[](void* self, v3_param_id) -> v3_result {
+                                                 owner_of<Vst3Instance>(self).edits += 'b';
+                                                 return V3_OK;
+                                             },
+                                             [](void* self, v3_param_id, double) -> v3_result {
+                                                 owner_of<Vst3Instance>(self).edits += 'v';
+                                                 return V3_OK;
+                                             },
+                                             [](void* self, v3_param_id) -> v3_result {
+                                                 owner_of<Vst3Instance>(self).edits += 'e';
+                                                 return V3_OK;
+                                             },
                                              [](void* self, std::int32_t flags) -> v3_result {
                                                  owner_of<Vst3Instance>(self).restarts.push_back(flags);
                                                  return V3_OK;
@@ -377,7 +386,8 @@ class Vst3Instance {
     std::vector<float> left, right;
     std::array<std::vector<float>, 16> strings;
     std::vector<std::int32_t> restarts;  ///< flags of each
-    std::uint64_t silence = 0;           ///< of the latest block's main channels
+    std::string edits;  ///< of the plugin's window: b for each begin, v for each value, e for each end
+    std::uint64_t silence = 0;  ///< of the latest block's main channels
     std::uint32_t left_references = 0;
 
   private:

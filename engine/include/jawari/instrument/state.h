@@ -161,6 +161,18 @@ struct InstrumentCounters {
 /// Adds the counts of `more`. Threads: any; realtime-safe.
 InstrumentCounters& operator+=(InstrumentCounters& sum, const InstrumentCounters& more) JAWARI_REALTIME;
 
+/// Places of a string by which impulses are added up (motion.h).
+inline constexpr std::size_t impact_places = 96;
+
+/// Impulses of strings on their obstacles, by string and place; watch_impacts() opens it.
+struct ImpactLog {
+    bool open = false;                 ///< impulses are added up
+    std::vector<float> sums_Ns;        ///< strings x impact_places [N s]
+    std::vector<std::uint8_t> struck;  ///< by string: something was added
+    std::vector<double>
+        places_per_metre;  ///< by string: impact_places over its longest speaking length [1/m]
+};
+
 /// An instrument while it plays. One thread at a time may use it.
 struct InstrumentState {
     PlayMode play = PlayMode::Keyboard;                ///< set by set_play_mode()
@@ -176,6 +188,7 @@ struct InstrumentState {
     bool busy = false;                ///< a string may have a voice that is not idle
     std::uint64_t strokes_until = 0;  ///< waiting strokes have been looked at before this output frame
     InstrumentCounters counters;      ///< notes and voices
+    ImpactLog impacts;                ///< for pictures; does not change the sound
     PlayerWork work;                  ///< energies that players have given to the strings
     Counters finished;                ///< contact counters of voices that are idle again
 };

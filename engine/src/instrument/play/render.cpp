@@ -7,6 +7,7 @@
 #include "instrument/play/control_targets.h"
 #include "instrument/play/controls.h"
 #include "instrument/play/events.h"
+#include "instrument/play/impacts.h"
 #include "instrument/play/strokes.h"
 #include "instrument/voice/body.h"
 #include "instrument/voice/voice.h"
@@ -37,8 +38,11 @@ void advance_string(const InstrumentModel& model, InstrumentState& state, std::s
         Voice& voice = string.voices[v];
         if (voice.phase == VoicePhase::Idle) continue;
         for (std::size_t n = 0; n < frames && voice.phase != VoicePhase::Idle; ++n) {
+            const std::uint64_t impulses = voice.string.counters.impulses;
             const VoiceSignals signals =
                 advance_voice(model, string_of(model, state, s), voice, smoothing, state);
+            if (state.impacts.open && voice.string.counters.impulses != impulses)
+                log_impacts(string_of(model, state, s), voice, s, state.impacts);
             VoiceSignals& sum = run.signals[n];
             sum.pickups += signals.pickups;
             sum.left += signals.left;

@@ -32,6 +32,19 @@ ChannelState neutral_channel() {
     return channel;
 }
 
+ImpactLog make_impact_log(const InstrumentModel& model) {
+    ImpactLog log;
+    log.sums_Ns.assign(model.strings.size() * impact_places, 0.0F);
+    log.struck.assign(model.strings.size(), 0);
+    for (const InstrumentStringModel& string : model.strings) {
+        double longest_m = 0;
+        for (const StoppedStringModel& stopped : string.stopped)
+            longest_m = std::max(longest_m, stopped.string.shape->length_m);
+        log.places_per_metre.push_back(longest_m > 0 ? static_cast<double>(impact_places) / longest_m : 0.0);
+    }
+    return log;
+}
+
 }  // namespace
 
 InstrumentCounters& operator+=(InstrumentCounters& sum, const InstrumentCounters& more) JAWARI_REALTIME {
@@ -52,6 +65,7 @@ InstrumentState make_instrument_state(const InstrumentModel& model) {
     state.channels.fill(neutral_channel());
     state.body = make_body_state(model.body);
     if (model.body.count > 0) state.string_bodies.assign(model.strings.size(), state.body);
+    state.impacts = make_impact_log(model);
     return state;
 }
 
@@ -77,6 +91,10 @@ void reset(const InstrumentModel& model, InstrumentState& state) JAWARI_REALTIME
     state.counters = {};
     state.work = {};
     state.finished = {};
+    ImpactLog& log = state.impacts;
+    log.open = false;
+    std::fill(log.sums_Ns.begin(), log.sums_Ns.end(), 0.0F);
+    std::fill(log.struck.begin(), log.struck.end(), std::uint8_t{0});
 }
 
 void inherit_controls(const InstrumentState& from, InstrumentState& to) JAWARI_REALTIME {
