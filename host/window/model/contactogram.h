@@ -12,9 +12,9 @@
 
 namespace jawari::host::window {
 
-inline constexpr std::size_t contactogram_rows = 180;
+inline constexpr std::size_t contactogram_rows = 90;
 /// Time that a row stands for [s].
-inline constexpr double contactogram_row_s = 1.0 / 60;
+inline constexpr double contactogram_row_s = 1.0 / 30;
 
 class Contactogram {
   public:

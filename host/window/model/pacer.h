@@ -7,7 +7,7 @@
 namespace jawari::host::window {
 
 inline constexpr double shortest_frame_s = 1.0 / 60;
-inline constexpr double longest_frame_s = 0.5;
+inline constexpr double longest_frame_s = 2;
 inline constexpr double drawing_share = 0.2;
 
 class Pacer {

@@ -51,7 +51,9 @@ void ParametersPanel::draw(Canvas& canvas, const ParameterDeclaration& parameter
     const Box line{box.x, box.y, box.width, 18};
     const float width = canvas.text(
         line, text, theme::type, value == parameter.neutral ? theme::quiet : theme::string, TextPlace::Right);
-    canvas.text({line.x, line.y, line.width - width - theme::grid, line.height}, parameter.name, theme::type,
+    const Box label{line.x, line.y, line.width - width - theme::grid, line.height};
+    const bool fits = canvas.text_width(parameter.name, theme::type) <= label.width;
+    canvas.text(label, fits ? parameter.name : parameter.short_name, theme::type,
                 usable ? theme::text : theme::quiet);
     const Box track{box.x, box.y + 20, box.width, 4};
     canvas.box(track, theme::raised, 2);

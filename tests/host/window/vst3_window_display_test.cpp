@@ -1,11 +1,11 @@
 // The window of the built VST 3 inside another one, as a host has it: with a frame that has timers.
 #include <X11/Xlib.h>
-#include <gtest/gtest.h>
-#include <travesty/view.h>
 #undef None
 #undef Bool
 #undef Status
 #undef Success
+#include <gtest/gtest.h>
+#include <travesty/view.h>
 
 #include <chrono>
 #include <cstdlib>
