@@ -42,7 +42,7 @@ def fretted():
         "exciters": [plain_finger(0.16, 0.004, full_height_m="chosen: the published bass is lifted by 3.6 mm")],
         "hand": player(0.12),
         "pickups": [velocity_pickup(0.13, 0.02, 1, "split coil in the middle position")],
-        "strings": sourced_strings(strings.bass([12, 11, 10, 9], 1.0), "chosen: typical of new round-wound strings, not measured"),
+        "strings": sourced_strings(strings.bass([11, 10, 9, 8.5], 0.85), "chosen: typical of new round-wound strings, not measured"),
     }
 
 
