@@ -7,7 +7,9 @@
 #include "base/small_system.h"
 #include "instrument/touch/exciters.h"
 #include "instrument/touch/touch_kernels.h"
+#include "string/frame/frame.h"
 #include "string/kernels/mode_sums.h"
+#include "string/kernels/touched_flight.h"
 #include "string/state/excitation.h"
 
 namespace jawari {
@@ -56,12 +58,17 @@ struct ActiveForces {  // NOLINT(cppcoreguidelines-pro-type-member-init)
     bool noisy = false;             ///< one of them makes a noise
 };
 
-const AlignedVector<double>& row_of(const TouchState& touches, std::size_t i) {
-    return i == exciter_index ? touches.exciter.row : touches.touches[i].row;
+bool excites(const ActiveForces& active) {
+    return active.count > active.touches;
 }
 
-std::size_t modes_of(const StringModel& model, const TouchState& touches, std::size_t i) {
-    return i == exciter_index ? model.shape->stride : touches.touches[i].modes;
+/// Modes that the forces reach.
+std::size_t reach_of(const StringModel& model, const ActiveForces& active) {
+    return excites(active) ? model.shape->stride : active.touched_modes;
+}
+
+const AlignedVector<double>& row_of(const TouchState& touches, std::size_t i) {
+    return i == exciter_index ? touches.exciter.row : touches.touches[i].row;
 }
 
 /// w = phi (q - h v/2) under each force at the frame's start, and its change over the frame in free flight.
@@ -83,24 +90,33 @@ kernels::TouchedRows free_paths(const StringModel& model, const StringState& str
     return rows;
 }
 
-/// G_ij = sum_k phi_i (q_held - h v_held/2) phi_j; `moved` is scratch.
-void set_compliance_of_touches(const StringModel& model, TouchState& touches, const ActiveForces& active) {
-    const double lag = model.shape->step_s / 2;
-    for (std::size_t a = 0; a < active.count; ++a) {
-        const std::size_t i = active.index[a];
-        const std::size_t modes = modes_of(model, touches, i);
-        const double* row = row_of(touches, i).data();
-        double* moved = touches.moved.data();
-        kernels::moved_by_held(modes, lag, model.tuning.flight, row, moved);
-        for (std::size_t b = 0; b <= a; ++b) {
-            const std::size_t j = active.index[b];
-            const double g = kernels::row_product(std::min(modes, modes_of(model, touches, j)),
-                                                  row_of(touches, j).data(), moved);
-            touches.compliance[i * forces + j] = g;
-            touches.compliance[j * forces + i] = g;
-        }
+/// Compliances among those of `active` with these places in it.
+template <std::size_t count>
+void set_compliances(const StringModel& model, TouchState& touches, const ActiveForces& active,
+                     const std::array<std::size_t, count>& places, std::size_t used) {
+    std::array<const double*, count> rows;  // NOLINT(cppcoreguidelines-pro-type-member-init): `used` set
+    std::array<double, count * count> compliance;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
+    for (std::size_t a = 0; a < used; ++a) rows[a] = row_of(touches, active.index[places[a]]).data();
+    // Behind its reach a row is zero.
+    kernels::compliances_of(reach_of(model, active), used, model.shape->step_s / 2, model.tuning.flight,
+                            rows.data(), compliance.data());
+    for (std::size_t a = 0; a < used; ++a) {
+        for (std::size_t b = 0; b < used; ++b)
+            touches.compliance[active.index[places[a]] * forces + active.index[places[b]]] =
+                compliance[a * used + b];
     }
+}
+
+/// G_ij = sum_k phi_i (q_held - h v_held/2) phi_j
+void set_compliance_of_touches(const StringModel& model, TouchState& touches, const ActiveForces& active) {
     touches.outdated = false;
+    if (active.count <= kernels::most_compliant_rows) {
+        set_compliances<kernels::most_compliant_rows>(model, touches, active, {0, 1, 2, 3}, active.count);
+        return;
+    }
+    for (std::size_t a = 1; a < active.count; ++a) {
+        for (std::size_t b = 0; b < a; ++b) set_compliances<2>(model, touches, active, {b, a}, 2);
+    }
 }
 
 /// What the touches answer: force_i = alone_i + by_exciter_i F_exciter.
@@ -113,10 +129,9 @@ struct TouchAnswer {  // NOLINT(cppcoreguidelines-pro-type-member-init)
 /// With one right side nothing is said of the exciter.
 template <std::size_t most, std::size_t sides>
 TouchAnswer answer_of(const StringModel& model, const TouchState& touches, const ActiveForces& active,
-                      const kernels::TouchedRows& paths) {
+                      const kernels::TouchedRows& paths, std::size_t n) {
     TouchAnswer answer;        // NOLINT(cppcoreguidelines-pro-type-member-init): the first n are set
     SmallSystem<most> system;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
-    const std::size_t n = active.touches;
     const double per_frame_s = 1 / frame_s(model);
     for (std::size_t a = 0; a < n; ++a) {
         const std::size_t i = active.index[a];
@@ -138,13 +153,22 @@ TouchAnswer answer_of(const StringModel& model, const TouchState& touches, const
     return answer;
 }
 
-/// A hand has two places: most often there are no more touches.
+/// With as many unknowns as there are touches, so that the loops over them unroll: most often a hand's two.
 template <std::size_t sides>
 TouchAnswer answer_of_touches(const StringModel& model, const TouchState& touches, const ActiveForces& active,
                               const kernels::TouchedRows& paths) {
-    if (active.touches <= 2) return answer_of<2, sides>(model, touches, active, paths);
-    return active.touches <= 4 ? answer_of<4, sides>(model, touches, active, paths)
-                               : answer_of<touch_slots, sides>(model, touches, active, paths);
+    switch (active.touches) {
+        case 0:
+            return TouchAnswer();
+        case 1:
+            return answer_of<1, sides>(model, touches, active, paths, 1);
+        case 2:
+            return answer_of<2, sides>(model, touches, active, paths, 2);
+        case 3:
+            return answer_of<3, sides>(model, touches, active, paths, 3);
+        default:
+            return answer_of<touch_slots, sides>(model, touches, active, paths, active.touches);
+    }
 }
 
 /// How the exciter's point moves: by `rise` without its force, and by `give` per newton of it.
@@ -168,22 +192,42 @@ void leave(Touch& touch) {
     touch.share_rate = -std::abs(touch.share_rate);
 }
 
+/// Age at which the touch's row was written last.
+std::uint64_t written_at(const Touch& touch) {
+    return (touch.age - 1) / sweep_frames * sweep_frames + 1;
+}
+
+/// Where a sweep is in its way to and fro, -1 to 1.
+double sweep_at(const StringModel& model, std::uint64_t age) {
+    const double turns = static_cast<double>(age) * frame_s(model) / sweep_period_s;
+    return std::sin(2 * std::numbers::pi * turns);
+}
+
 /// Where the touch has lain since its row was written last.
 double place_of(const StringModel& model, const Touch& touch) {
     if (touch.sweep_m == 0 || touch.age == 0) return touch.x_m;
-    const std::uint64_t written = (touch.age - 1) / sweep_frames * sweep_frames + 1;
-    const double turns = static_cast<double>(written) * frame_s(model) / sweep_period_s;
-    return touch.x_m + touch.sweep_m * std::sin(2 * std::numbers::pi * turns);
+    return touch.x_m + touch.sweep_m * sweep_at(model, written_at(touch));
 }
 
-void sweep_touches(const StringModel& model, TouchState& touches, const ActiveForces& active) {
+/// Returns whether one of them was moved.
+bool sweep_touches(const StringModel& model, TouchState& touches, const ActiveForces& active) {
+    bool moved = false;
+    std::uint64_t age = 0;  // a hand's touches were laid together
+    double sweep = 0;
     for (std::size_t a = 0; a < active.touches; ++a) {
         Touch& touch = touches.touches[active.index[a]];
         if (touch.sweep_m == 0) continue;
         if (touch.age++ % sweep_frames != 0) continue;
-        write_point_row(model, touch.modes, place_of(model, touch), touch.width_m, touch.row.data());
-        touches.outdated = true;
+        if (written_at(touch) != age) {
+            age = written_at(touch);
+            sweep = sweep_at(model, age);
+        }
+        write_point_row(model, touch.modes, touch.x_m + touch.sweep_m * sweep, touch.width_m,
+                        touch.row.data());
+        moved = true;
     }
+    touches.outdated = touches.outdated || moved;
+    return moved;
 }
 
 /// The touch comes, follows the pressure, and leaves.
@@ -244,6 +288,95 @@ void note_paths(TouchState& touches, const ActiveForces& active, const kernels::
     }
 }
 
+/// What acts over the coming frame.
+struct HeldForces {  // NOLINT(cppcoreguidelines-pro-type-member-init): the first `count` are set
+    std::array<double, forces> force_N;
+    bool any = false;      ///< one of them is not 0
+    bool passive = false;  ///< as hold_forces() has it
+};
+
+/// The forces of all touches and the exciter, which moves on.
+HeldForces solve_forces(const StringModel& model, TouchState& touches, const ActiveForces& active,
+                        const kernels::TouchedRows& paths) {
+    HeldForces held;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
+    const TouchAnswer answer = excites(active) ? answer_of_touches<2>(model, touches, active, paths)
+                                               : answer_of_touches<1>(model, touches, active, paths);
+    double exciter_N = 0;
+    if (excites(active)) {
+        exciter_N = exciter_force(string_at_exciter(model, touches, active, paths, answer), touches.exciter);
+        held.force_N[active.touches] = exciter_N;
+    }
+    for (std::size_t a = 0; a < active.touches; ++a)
+        held.force_N[a] = answer.alone[a] + answer.by_exciter[a] * exciter_N;
+    for (std::size_t a = 0; a < active.count; ++a) held.any = held.any || held.force_N[a] != 0;
+    held.passive = exciter_N == 0 && !active.sprung && !active.noisy;
+    return held;
+}
+
+void hold(const StringModel& model, StringState& string, const ActiveForces& active,
+          const kernels::TouchedRows& paths, const HeldForces& held) {
+    hold_forces(string, {active.count, held.force_N.data(), paths.row.data()}, active.touched_modes,
+                reach_of(model, active), held.passive);
+}
+
+/// free_paths() in one sweep over the modes that move, in the order of kernels::fly_touched().
+kernels::TouchedRows paths_of_all(const StringModel& model, const StringState& string,
+                                  const TouchState& touches, const ActiveForces& active) {
+    kernels::TouchedRows rows;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
+    rows.count = active.count;
+    for (std::size_t a = 0; a < active.count; ++a) rows.row[a] = row_of(touches, active.index[a]).data();
+    kernels::free_paths(0, string.active_modes, model.shape->step_s / 2, model.tuning.flight,
+                        string.displacement.data(), string.velocity.data(), rows);
+    return rows;
+}
+
+/// What the forces of a frame without contacts do, as meter_touches() has it.
+void meter_flight(const TouchState& touches, const ActiveForces& active, const kernels::TouchedRows& paths,
+                  const std::array<double, forces>& force_N, PlayerWork& work) {
+    for (std::size_t a = 0; a < active.count; ++a) {
+        double path_m = paths.rise[a];
+        for (std::size_t b = 0; b < active.count; ++b)
+            path_m += touches.compliance[active.index[a] * forces + active.index[b]] * force_N[b];
+        if (a == active.touches) {
+            work.exciters_J += force_N[a] * path_m;
+            continue;
+        }
+        const double noise_N = touches.touches[active.index[a]].point.noise_N;
+        work.touches_J += (force_N[a] - noise_N) * path_m;
+        work.noises_J += noise_N * path_m;
+    }
+}
+
+/// Whether a touch is about to be moved.
+bool will_sweep(const TouchState& touches, const ActiveForces& active) {
+    for (std::size_t a = 0; a < active.touches; ++a) {
+        const Touch& touch = touches.touches[active.index[a]];
+        if (touch.sweep_m != 0 && touch.age % sweep_frames == 0) return true;
+    }
+    return false;
+}
+
+/// The frame under the forces; what its rows do next is known from then on, if it is asked for and nothing is
+/// about to move them. Returns the reading.
+double fly_under(const StringModel& model, StringState& string, const TouchState& touches,
+                 const ActiveForces& active, const kernels::TouchedRows& paths, const HeldForces& held,
+                 TouchedRun& run) {
+    kernels::TouchedFlight frame;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
+    frame.count = active.count;
+    std::copy_n(paths.row.begin(), active.count, frame.row.begin());
+    std::copy_n(held.force_N.begin(), active.count, frame.force_N.begin());
+    frame.read_row = run.read_row;
+    frame.looks_ahead = run.goes_on && !will_sweep(touches, active);
+    cross_touched_frame(model, string, frame, reach_of(model, active), held.passive);
+    if (frame.looks_ahead) {
+        run.known.count = active.count;
+        std::copy_n(frame.row.begin(), active.count, run.known.row.begin());
+        std::copy_n(frame.middle.begin(), active.count, run.known.middle.begin());
+        std::copy_n(frame.rise.begin(), active.count, run.known.rise.begin());
+    }
+    return frame.reading;
+}
+
 }  // namespace
 
 TouchState make_touch_state(std::size_t stride) {
@@ -302,8 +435,7 @@ void lift_touch(TouchState& touches, TouchSlot slot) JAWARI_REALTIME {
 
 void apply_touches(const StringModel& model, StringState& string, TouchState& touches) JAWARI_REALTIME {
     const ActiveForces active = move_touches(touches);
-    const bool excites = active.count > active.touches;
-    if (active.count == 0 || (string.asleep && !excites)) {
+    if (active.count == 0 || (string.asleep && !excites(active))) {
         clear_excitation(string);
         return;
     }
@@ -311,20 +443,33 @@ void apply_touches(const StringModel& model, StringState& string, TouchState& to
     if (active.noisy) make_noises(model, touches, active);
     if (touches.outdated) set_compliance_of_touches(model, touches, active);
     const kernels::TouchedRows paths = free_paths(model, string, touches, active);
-    const TouchAnswer answer = excites ? answer_of_touches<2>(model, touches, active, paths)
-                                       : answer_of_touches<1>(model, touches, active, paths);
-    std::array<double, forces> force_N;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
-    double exciter_N = 0;
-    if (excites) {
-        exciter_N = exciter_force(string_at_exciter(model, touches, active, paths, answer), touches.exciter);
-        force_N[active.touches] = exciter_N;
+    const HeldForces held = solve_forces(model, touches, active, paths);
+    note_paths(touches, active, paths, held.force_N);
+    hold(model, string, active, paths, held);
+}
+
+double fly_touched(const StringModel& model, StringState& string, TouchState& touches, TouchedRun& run,
+                   PlayerWork& work) JAWARI_REALTIME {
+    const ActiveForces active = move_touches(touches);
+    clear_excitation(string);
+    const bool acts = active.count > 0 && (!string.asleep || excites(active));
+    const bool stays = acts && !sweep_touches(model, touches, active);
+    const bool known = stays && run.known.count == active.count;
+    if (acts && active.noisy) make_noises(model, touches, active);
+    if (acts && touches.outdated) set_compliance_of_touches(model, touches, active);
+    const kernels::TouchedRows paths =
+        known ? run.known : (acts ? paths_of_all(model, string, touches, active) : kernels::TouchedRows());
+    const HeldForces held = acts ? solve_forces(model, touches, active, paths) : HeldForces();
+    run.known.count = 0;
+    if (!acts || !held.any || active.count > kernels::most_flight_forces) {
+        if (acts) note_paths(touches, active, paths, held.force_N);
+        if (acts) hold(model, string, active, paths, held);
+        advance_frame(model, string);
+        meter_touches(model, string, touches, false, work);
+        return kernels::row_product(string.active_modes, run.read_row, string.displacement.data());
     }
-    for (std::size_t a = 0; a < active.touches; ++a)
-        force_N[a] = answer.alone[a] + answer.by_exciter[a] * exciter_N;
-    note_paths(touches, active, paths, force_N);
-    const bool passive = exciter_N == 0 && !active.sprung && !active.noisy;
-    hold_forces(string, {active.count, force_N.data(), paths.row.data()}, active.touched_modes,
-                excites ? model.shape->stride : active.touched_modes, passive);
+    meter_flight(touches, active, paths, held.force_N, work);
+    return fly_under(model, string, touches, active, paths, held, run);
 }
 
 void rewrite_touches(const StringModel& model, TouchState& touches, std::size_t kept) JAWARI_REALTIME {
