@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/small_system.h"
 #include "instrument/touch/exciters.h"
+#include "instrument/touch/touch_forces.h"
 #include "instrument/touch/touch_kernels.h"
 #include "string/frame/frame.h"
 #include "string/kernels/mode_sums.h"
@@ -15,8 +15,6 @@
 namespace jawari {
 namespace {
 
-constexpr std::size_t forces = touch_slots + 1;
-constexpr std::size_t exciter_index = touch_slots;
 /// Touches do not reach modes above this.
 constexpr double touch_limit_hz = 12000;
 /// Share of the way to its new pressure that a touch goes in a frame.
@@ -26,10 +24,6 @@ constexpr double pressure_follow = 0.01;
 /// were heard at 12 kHz.
 constexpr double sweep_period_s = 0.04;
 constexpr std::uint64_t sweep_frames = 2;
-
-double frame_s(const StringModel& model) {
-    return model.shape->step_s * static_cast<double>(model.shape->steps_per_frame);
-}
 
 /// Flesh and felt damp what is heard; modes far beyond die by themselves and need not be woken.
 std::size_t modes_in_reach(const StringModel& model) {
@@ -43,32 +37,6 @@ std::size_t modes_in_reach(const StringModel& model) {
 void set_reach(const StringModel& model, Touch& touch) {
     touch.modes = modes_in_reach(model);
     std::fill(touch.row.begin() + static_cast<std::ptrdiff_t>(touch.modes), touch.row.end(), 0.0);
-}
-
-// Of the arrays in the structures below only the first entries, one per force that acts, are ever set or
-// read: this runs for every voice in every frame, and clearing them takes a tenth of its time.
-
-/// The touches and, if it acts, the exciter.
-struct ActiveForces {  // NOLINT(cppcoreguidelines-pro-type-member-init)
-    std::array<std::size_t, forces> index;
-    std::size_t count = 0;
-    std::size_t touches = 0;        ///< those in front
-    std::size_t touched_modes = 0;  ///< that any of them reaches
-    bool sprung = false;            ///< one of them has a spring
-    bool noisy = false;             ///< one of them makes a noise
-};
-
-bool excites(const ActiveForces& active) {
-    return active.count > active.touches;
-}
-
-/// Modes that the forces reach.
-std::size_t reach_of(const StringModel& model, const ActiveForces& active) {
-    return excites(active) ? model.shape->stride : active.touched_modes;
-}
-
-const AlignedVector<double>& row_of(const TouchState& touches, std::size_t i) {
-    return i == exciter_index ? touches.exciter.row : touches.touches[i].row;
 }
 
 /// w = phi (q - h v/2) under each force at the frame's start, and its change over the frame in free flight.
@@ -88,104 +56,6 @@ kernels::TouchedRows free_paths(const StringModel& model, const StringState& str
     rows.middle[active.touches] += beyond.middle[0];
     rows.rise[active.touches] += beyond.rise[0];
     return rows;
-}
-
-/// Compliances among those of `active` with these places in it.
-template <std::size_t count>
-void set_compliances(const StringModel& model, TouchState& touches, const ActiveForces& active,
-                     const std::array<std::size_t, count>& places, std::size_t used) {
-    std::array<const double*, count> rows;  // NOLINT(cppcoreguidelines-pro-type-member-init): `used` set
-    std::array<double, count * count> compliance;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
-    for (std::size_t a = 0; a < used; ++a) rows[a] = row_of(touches, active.index[places[a]]).data();
-    // Behind its reach a row is zero.
-    kernels::compliances_of(reach_of(model, active), used, model.shape->step_s / 2, model.tuning.flight,
-                            rows.data(), compliance.data());
-    for (std::size_t a = 0; a < used; ++a) {
-        for (std::size_t b = 0; b < used; ++b)
-            touches.compliance[active.index[places[a]] * forces + active.index[places[b]]] =
-                compliance[a * used + b];
-    }
-}
-
-/// G_ij = sum_k phi_i (q_held - h v_held/2) phi_j
-void set_compliance_of_touches(const StringModel& model, TouchState& touches, const ActiveForces& active) {
-    touches.outdated = false;
-    if (active.count <= kernels::most_compliant_rows) {
-        set_compliances<kernels::most_compliant_rows>(model, touches, active, {0, 1, 2, 3}, active.count);
-        return;
-    }
-    for (std::size_t a = 1; a < active.count; ++a) {
-        for (std::size_t b = 0; b < a; ++b) set_compliances<2>(model, touches, active, {b, a}, 2);
-    }
-}
-
-/// What the touches answer: force_i = alone_i + by_exciter_i F_exciter.
-struct TouchAnswer {  // NOLINT(cppcoreguidelines-pro-type-member-init)
-    std::array<double, touch_slots> alone;
-    std::array<double, touch_slots> by_exciter;
-};
-
-/// F_i = -(c/T + k/2) (rise_i + sum_j G_ij F_j) - k (w_i - rest_i) + N_i, solved for the F of the touches.
-/// With one right side nothing is said of the exciter.
-template <std::size_t most, std::size_t sides>
-TouchAnswer answer_of(const StringModel& model, const TouchState& touches, const ActiveForces& active,
-                      const kernels::TouchedRows& paths, std::size_t n) {
-    TouchAnswer answer;        // NOLINT(cppcoreguidelines-pro-type-member-init): the first n are set
-    SmallSystem<most> system;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
-    const double per_frame_s = 1 / frame_s(model);
-    for (std::size_t a = 0; a < n; ++a) {
-        const std::size_t i = active.index[a];
-        const Touch& touch = touches.touches[i];
-        const double stiffness = touch.share * touch.stiffness_N_per_m;
-        const double drag = touch.share * touch.damping_kg_per_s * per_frame_s + stiffness / 2;
-        for (std::size_t b = 0; b < n; ++b)
-            system.matrix[a][b] =
-                (a == b ? 1.0 : 0.0) + drag * touches.compliance[i * forces + active.index[b]];
-        system.right[a][0] =
-            -drag * paths.rise[a] - stiffness * (paths.middle[a] - touch.rest_m) + touch.point.noise_N;
-        if (sides == 2) system.right[a][1] = -drag * touches.compliance[i * forces + exciter_index];
-    }
-    solve_small_system<most, sides>(system, n);
-    for (std::size_t a = 0; a < n; ++a) {
-        answer.alone[a] = system.right[a][0];
-        answer.by_exciter[a] = sides == 2 ? system.right[a][1] : 0.0;
-    }
-    return answer;
-}
-
-/// With as many unknowns as there are touches, so that the loops over them unroll: most often a hand's two.
-template <std::size_t sides>
-TouchAnswer answer_of_touches(const StringModel& model, const TouchState& touches, const ActiveForces& active,
-                              const kernels::TouchedRows& paths) {
-    switch (active.touches) {
-        case 0:
-            return TouchAnswer();
-        case 1:
-            return answer_of<1, sides>(model, touches, active, paths, 1);
-        case 2:
-            return answer_of<2, sides>(model, touches, active, paths, 2);
-        case 3:
-            return answer_of<3, sides>(model, touches, active, paths, 3);
-        default:
-            return answer_of<touch_slots, sides>(model, touches, active, paths, active.touches);
-    }
-}
-
-/// How the exciter's point moves: by `rise` without its force, and by `give` per newton of it.
-StringAtExciter string_at_exciter(const StringModel& model, const TouchState& touches,
-                                  const ActiveForces& active, const kernels::TouchedRows& paths,
-                                  const TouchAnswer& answer) {
-    StringAtExciter at;
-    at.frame_s = frame_s(model);
-    at.displacement_m = paths.middle[active.touches];
-    at.rise_m = paths.rise[active.touches];
-    at.give_m_per_N = touches.compliance[exciter_index * forces + exciter_index];
-    for (std::size_t a = 0; a < active.touches; ++a) {
-        const double g = touches.compliance[exciter_index * forces + active.index[a]];
-        at.rise_m += g * answer.alone[a];
-        at.give_m_per_N += g * answer.by_exciter[a];
-    }
-    return at;
 }
 
 void leave(Touch& touch) {
@@ -276,7 +146,7 @@ ActiveForces move_touches(TouchState& touches) {
 
 /// What the frame's forces are, and how far their points go if no contact acts.
 void note_paths(TouchState& touches, const ActiveForces& active, const kernels::TouchedRows& paths,
-                const std::array<double, forces>& force_N) {
+                const std::array<double, most_forces>& force_N) {
     for (std::size_t a = 0; a < active.count; ++a) {
         const std::size_t i = active.index[a];
         TouchedPoint& point = i == exciter_index ? touches.exciter.point : touches.touches[i].point;
@@ -284,33 +154,8 @@ void note_paths(TouchState& touches, const ActiveForces& active, const kernels::
         point.start_m = paths.middle[a];
         point.path_m = paths.rise[a];
         for (std::size_t b = 0; b < active.count; ++b)
-            point.path_m += touches.compliance[i * forces + active.index[b]] * force_N[b];
+            point.path_m += touches.compliance[i * most_forces + active.index[b]] * force_N[b];
     }
-}
-
-/// What acts over the coming frame.
-struct HeldForces {  // NOLINT(cppcoreguidelines-pro-type-member-init): the first `count` are set
-    std::array<double, forces> force_N;
-    bool any = false;      ///< one of them is not 0
-    bool passive = false;  ///< as hold_forces() has it
-};
-
-/// The forces of all touches and the exciter, which moves on.
-HeldForces solve_forces(const StringModel& model, TouchState& touches, const ActiveForces& active,
-                        const kernels::TouchedRows& paths) {
-    HeldForces held;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
-    const TouchAnswer answer = excites(active) ? answer_of_touches<2>(model, touches, active, paths)
-                                               : answer_of_touches<1>(model, touches, active, paths);
-    double exciter_N = 0;
-    if (excites(active)) {
-        exciter_N = exciter_force(string_at_exciter(model, touches, active, paths, answer), touches.exciter);
-        held.force_N[active.touches] = exciter_N;
-    }
-    for (std::size_t a = 0; a < active.touches; ++a)
-        held.force_N[a] = answer.alone[a] + answer.by_exciter[a] * exciter_N;
-    for (std::size_t a = 0; a < active.count; ++a) held.any = held.any || held.force_N[a] != 0;
-    held.passive = exciter_N == 0 && !active.sprung && !active.noisy;
-    return held;
 }
 
 void hold(const StringModel& model, StringState& string, const ActiveForces& active,
@@ -332,11 +177,11 @@ kernels::TouchedRows paths_of_all(const StringModel& model, const StringState& s
 
 /// What the forces of a frame without contacts do, as meter_touches() has it.
 void meter_flight(const TouchState& touches, const ActiveForces& active, const kernels::TouchedRows& paths,
-                  const std::array<double, forces>& force_N, PlayerWork& work) {
+                  const std::array<double, most_forces>& force_N, PlayerWork& work) {
     for (std::size_t a = 0; a < active.count; ++a) {
         double path_m = paths.rise[a];
         for (std::size_t b = 0; b < active.count; ++b)
-            path_m += touches.compliance[active.index[a] * forces + active.index[b]] * force_N[b];
+            path_m += touches.compliance[active.index[a] * most_forces + active.index[b]] * force_N[b];
         if (a == active.touches) {
             work.exciters_J += force_N[a] * path_m;
             continue;
