@@ -1,6 +1,5 @@
-// What touches and the exciter exert over a frame, solved together from the free flight of their places. F_i
-// = -(c/T
-// + k/2) (rise_i + sum_j G_ij F_j) - k (w_i - rest_i) + N_i.
+// What touches and the exciter exert over a frame, solved together from the free flight of their places:
+//     F_i = -(c/T + k/2) (rise_i + sum_j G_ij F_j) - k (w_i - rest_i) + N_i
 #pragma once
 
 #include <array>
