@@ -173,8 +173,11 @@ TEST(Pickup, ACoilWeighsEachPartialAtItsFrequency) {
     start_voice(model, model.strings[0], voice, 0, 0, 0);
     for (const std::size_t k : {1U, 5U, 9U, 10U, 40U}) {
         voice.string.velocity[k - 1] = 1;
-        const double plain = pickup_signal(model, stopped, voice.string, 0);
-        const double heard = pickup_signal(model, stopped, voice.string, 1);
+        OutputReadings readings;
+        set_output_readings(model, stopped, readings);
+        read_outputs(voice.string, 0, readings);
+        const double plain = pickup_signal(model, stopped, readings, 0, 0);
+        const double heard = pickup_signal(model, stopped, readings, 0, 1);
         voice.string.velocity[k - 1] = 0;
         const double n = static_cast<double>(k);
         const double f = n * 41.20344461410875 * std::sqrt((1 + 9e-5 * n * n) / (1 + 9e-5));
