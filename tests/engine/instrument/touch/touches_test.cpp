@@ -98,7 +98,9 @@ void lay_some(const StringModel& model, const StringState& state, TouchState& to
                    .damping_kg_per_s = 0.3,
                    .stiffness_N_per_m = i == 3 ? 200.0 : 0.0,
                    .frames = i == 1 ? 40U : 0U,
-                   .ease_frames = 20});
+                   .ease_frames = 20,
+                   .noise_N = i == 0 ? 0.02 : 0.0,
+                   .noise_frames = 100});
     }
     if (trial % 2 == 0) return;
     HammerDescription hammer;
@@ -142,6 +144,8 @@ TEST(Touches, FlightsUnderThemAreFramesUnderThem) {
         }
         EXPECT_NEAR(flown_work[0].touches_J, work.touches_J, 1e-9 * scale) << trial;
         EXPECT_NEAR(flown_work[0].exciters_J, work.exciters_J, 1e-9 * scale) << trial;
+        EXPECT_NEAR(flown_work[0].noises_J, work.noises_J, 1e-9 * scale) << trial;
+        EXPECT_NE(work.noises_J, 0) << trial;
         EXPECT_NEAR(energy(model, flown[0]), energy(model, state), 1e-9 * scale) << trial;
     }
 }
