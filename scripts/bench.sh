@@ -2,13 +2,14 @@
 # Runs the benchmarks and writes docs/benchmarks.md, its CSV files (docs/benchmarks/) and plots (docs/images/benchmarks/).
 # Usage: scripts/bench.sh [STAGE...]     without stages: all of them, in less than an hour on two cores
 #   Stages: accuracy convergence work-precision siconos peers cost instructions speed plots page
-#   Only if named: latency (live playing, docs/player/player.md; a million blocks each, hours)
+#   Only if named: latency (live playing, docs/player/player.md; a million blocks each, hours), blocks (the same page's table of
+#   all presets, minutes)
 # The reference solutions are files; benchmarks/reference/make_references.py remakes them.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
 all=(accuracy convergence work-precision siconos peers cost instructions speed plots page)
-named_only=(latency)
+named_only=(latency blocks)
 stages=("$@")
 ((${#stages[@]})) || stages=("${all[@]}")
 for stage in "${stages[@]}"; do
@@ -61,6 +62,7 @@ run_stage() {
             done
             ;;
         page) "$python" -B benchmarks/page/page.py ;;
+        blocks) "$python" -B scripts/block_times.py "$bin/jawari" ;;
         latency) "$bin/jawari" bench-latency --csv "$data/latency.csv" --plot docs/images/benchmarks/latency.svg ;;
     esac
 }

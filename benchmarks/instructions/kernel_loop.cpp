@@ -9,9 +9,14 @@
 #include <iterator>
 #include <numeric>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
+#include "base/builtin.h"
 #include "formats/scene/read_scene.h"
+#include "jawari/denormals.h"
 #include "jawari/jawari.h"
+#include "preset_chord.h"
 #include "string/kernels/flight.h"
 #include "string/kernels/mode_bounds.h"
 #include "string/kernels/mode_run.h"
@@ -132,11 +137,18 @@ void lcp() {
 }
 
 struct Entry {
-    const char* name;
+    std::string name;
     std::function<void()> run;
 };
 
-const Entry entries[] = {
+/// The block of a chord on a preset, with denormals off as in live playing.
+void chord(const std::string& preset) {
+    const NoDenormals guard;
+    PresetChord playing(preset);
+    counted([&] { playing.play(); });
+}
+
+const Entry kernels_and_scenes[] = {
     {"run_modes/0", [] { run_modes(0); }},
     {"run_modes/1", [] { run_modes(1); }},
     {"run_modes/4", [] { run_modes(4); }},
@@ -159,13 +171,22 @@ const Entry entries[] = {
      [] { render_scene("lab/fretless", 240000, ImpactLaw::Signorini, skip_all, 0, 120); }},
 };
 
+std::vector<Entry> entries() {
+    std::vector<Entry> all(std::begin(kernels_and_scenes), std::end(kernels_and_scenes));
+    for (const host::BuiltinFile& file : host::builtin_files("instruments")) {
+        const std::string preset(file.name);
+        all.push_back({"chord on " + preset, [preset] { chord(preset); }});
+    }
+    return all;
+}
+
 }  // namespace
 }  // namespace jawari::benchmarks
 
 int main(int argc, char** argv) {
-    using jawari::benchmarks::entries;
+    const auto entries = jawari::benchmarks::entries();
     if (argc == 2 && std::strcmp(argv[1], "--list") == 0) {
-        for (const auto& entry : entries) std::puts(entry.name);
+        for (const auto& entry : entries) std::puts(entry.name.c_str());
         return 0;
     }
     if (argc == 2 && std::strcmp(argv[1], "--isa") == 0) {
@@ -176,7 +197,7 @@ int main(int argc, char** argv) {
     }
     try {
         for (const auto& entry : entries) {
-            if (argc == 2 && std::strcmp(argv[1], entry.name) == 0) {
+            if (argc == 2 && entry.name == argv[1]) {
                 entry.run();
                 return 0;
             }

@@ -18,7 +18,7 @@ struct SmallSystem {  // NOLINT(cppcoreguidelines-pro-type-member-init)
 
 /// The first n <= N rows and columns, the first `sides` right sides.
 template <std::size_t N, std::size_t sides>
-void solve_small_system(SmallSystem<N>& s, std::size_t n) noexcept {
+inline void solve_small_system(SmallSystem<N>& s, std::size_t n) noexcept {
     std::array<double, N> per_pivot;  // NOLINT(cppcoreguidelines-pro-type-member-init): the first n are set
     for (std::size_t p = 0; p < n; ++p) {
         per_pivot[p] = 1 / s.matrix[p][p];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace jawari::host {
 
@@ -11,6 +12,7 @@ namespace {
 constexpr double cable_messages_per_s = 31250.0 / 30;
 constexpr double passage_s = 0.25;
 constexpr double chord_s = 0.025;
+constexpr std::size_t fingers = 10;
 
 constexpr int note_on = 0x90, note_off = 0x80, control = 0xB0, channel_pressure = 0xD0, bend = 0xE0;
 constexpr int sustain = 64, legato = 68, vibrato = 1;
@@ -40,8 +42,8 @@ std::string adversary_map_text() {
     return R"({"schema": "jawari.midi-map/1", "bindings": [)" + bindings + "]}";
 }
 
-Adversary::Adversary(const InstrumentModel& model, std::uint32_t seed)
-    : rate_hz_(model.output_rate_hz), random_(seed) {
+Adversary::Adversary(const InstrumentModel& model, std::uint32_t seed, AdversaryReach reach)
+    : rate_hz_(model.output_rate_hz), reach_(reach), random_(seed) {
     for (const CourseModel& course : model.courses) {
         std::vector<int> keys;
         for (const StoppedStringModel& stopped : model.strings[course.strings.front()].stopped) {
@@ -49,6 +51,9 @@ Adversary::Adversary(const InstrumentModel& model, std::uint32_t seed)
         }
         if (!keys.empty()) keys_.push_back(std::move(keys));
     }
+    in_turn_.resize(keys_.size());
+    std::iota(in_turn_.begin(), in_turn_.end(), std::size_t{0});
+    struck_ = in_turn_.size();
 }
 
 const std::vector<AdversaryMessage>& Adversary::next(std::size_t frames) {
@@ -71,7 +76,8 @@ void Adversary::begin_passage(std::size_t offset) {
     passage_ = (passage_ + 1) % static_cast<std::size_t>(Passage::Count);
     next_passage_ = frame_ + static_cast<std::uint64_t>(std::lround(passage_s * rate_hz_));
     next_chord_ = frame_;
-    add(offset, control, sustain, 0);
+    const bool pedal = reach_ == AdversaryReach::TwoHands && static_cast<Passage>(passage_) != Passage::Runs;
+    add(offset, control, sustain, pedal ? 127 : 0);
     add(offset, control, legato, 0);
     switch (static_cast<Passage>(passage_)) {
         case Passage::Chords:
@@ -106,12 +112,29 @@ void Adversary::neutral_parameters(std::size_t offset) {
 /// Every course is played anew, most with a key other than the one before.
 void Adversary::chord(std::size_t offset) {
     release_all(offset);
-    for (const std::vector<int>& keys : keys_) {
-        // A stop in the lower half: long strings with many frets before them.
-        const int key = keys[below((keys.size() + 1) / 2)];
-        add(offset, note_on, key, 127);
-        down_.push_back(key);
+    if (reach_ == AdversaryReach::TwoHands) {
+        chord_of_ten(offset);
+        return;
     }
+    for (std::size_t course = 0; course < keys_.size(); ++course) strike(offset, course);
+}
+
+void Adversary::chord_of_ten(std::size_t offset) {
+    for (std::size_t finger = 0; finger < std::min(fingers, keys_.size()); ++finger) {
+        if (struck_ == in_turn_.size()) {
+            for (std::size_t i = in_turn_.size(); i > 1; --i) std::swap(in_turn_[i - 1], in_turn_[below(i)]);
+            struck_ = 0;
+        }
+        strike(offset, in_turn_[struck_++]);
+    }
+}
+
+/// A stop in the lower half: long strings with many frets before them.
+void Adversary::strike(std::size_t offset, std::size_t course) {
+    const std::vector<int>& keys = keys_[course];
+    const int key = keys[below((keys.size() + 1) / 2)];
+    add(offset, note_on, key, 127);
+    down_.push_back(key);
 }
 
 void Adversary::release_all(std::size_t offset) {

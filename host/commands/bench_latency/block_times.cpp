@@ -7,7 +7,6 @@
 
 #include "base/cpu_clock.h"
 #include "base/interrupt.h"
-#include "commands/bench_latency/adversary.h"
 #include "player/player.h"
 #include "plugin/core/plugin_core.h"
 
@@ -31,7 +30,7 @@ class LivePass {
     LivePass(const SharedInstrument& instrument, const BlockTimeSettings& settings)
         : frames_(settings.frames),
           frame_ns_(1e9 / settings.rate_hz),
-          adversary_(instrument->model, settings.seed),
+          adversary_(instrument->model, settings.seed, settings.reach),
           player_(settings_of(settings)),
           port_(player_.add_port()),
           left_(settings.frames),
@@ -79,7 +78,7 @@ class PluginPass {
     PluginPass(const SharedInstrument& instrument, const BlockTimeSettings& settings)
         : frames_(settings.frames),
           block_ns_(1e9 * static_cast<double>(settings.frames) / settings.rate_hz),
-          adversary_(instrument->model, settings.seed),
+          adversary_(instrument->model, settings.seed, settings.reach),
           left_(settings.frames),
           right_(settings.frames) {
         error_ = core_.load(settings.plugin_state);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "commands/bench_latency/adversary.h"
 #include "instrument/instrument_cache.h"
 #include "plugin/core/plugin_state.h"
 
@@ -18,6 +19,7 @@ struct BlockTimeSettings {
     std::uint64_t blocks = 1000;  ///< played in each pass
     std::size_t passes = 7;       ///< identical ones; what differs between them is the machine
     std::uint32_t seed = 1;
+    AdversaryReach reach = AdversaryReach::AllCourses;
     bool plugin = false;       ///< the way through the plugin instead of that of jawari play
     PluginState plugin_state;  ///< then in force, with the instrument in it
     bool governor = false;     ///< passes then differ: quality follows the machine

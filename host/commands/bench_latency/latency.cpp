@@ -31,6 +31,10 @@ MaybeError write_text(const std::string& path, const std::string& text) {
     return file.value().commit();
 }
 
+AdversaryReach reach_of(const LatencyOptions& options) {
+    return options.two_hands ? AdversaryReach::TwoHands : AdversaryReach::AllCourses;
+}
+
 struct Job {
     SharedInstrument instrument;
     PresetResult result;
@@ -63,6 +67,7 @@ Outcome<Job> survey(const std::string& preset, const LatencyOptions& options) {
     timing.blocks = survey_blocks;
     timing.passes = 1;
     timing.seed = options.seed;
+    timing.reach = reach_of(options);
     auto times = measure_blocks(job.instrument, timing);
     if (!times) return times.error();
     job.result.survey_cost = distribution_of(std::move(times.value().raw)).p99;
@@ -76,6 +81,7 @@ MaybeError measure_size(Job& job, std::size_t frames, const LatencyOptions& opti
     timing.passes = options.passes;
     timing.blocks = (options.blocks + options.passes - 1) / options.passes;
     timing.seed = options.seed;
+    timing.reach = reach_of(options);
     timing.governor = options.governor;
     timing.plugin = options.plugin;
     timing.plugin_state = job.plugin_state;
@@ -165,6 +171,7 @@ MaybeError bench_latency(const LatencyOptions& options) {
     report.rate_hz = options.rate_hz;
     report.quality = std::string(name_of(options.quality)) + (options.governor ? ", governed" : "") +
                      (options.plugin ? ", in the plugin" : "");
+    report.two_hands = options.two_hands;
     for (Job& job : jobs) report.presets.push_back(std::move(job.result));
     return write_report(report, options);
 }

@@ -78,6 +78,8 @@ void add_bench_latency_command(CLI::App& app, Command& command) {
     bench->add_flag(
         "--governor", options->governor,
         "Lower the quality under overload, as in jawari play; passes then differ from one another");
+    bench->add_flag("--two-hands", options->two_hands,
+                    "Ten keys at once under the pedal, in place of chords on all courses");
     bench->add_flag("--plugin", options->plugin, "Time blocks of the plugin instead of those of jawari play");
     bench->add_option("--json", options->json, "All results as JSON; - for standard output")
         ->type_name("FILE");

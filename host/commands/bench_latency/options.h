@@ -20,6 +20,7 @@ struct LatencyOptions {
     std::uint32_t seed = 1;
     bool plugin = false;     ///< times the plugin's blocks
     bool governor = false;   ///< quality may drop, as when playing live
+    bool two_hands = false;  ///< ten keys at once, AdversaryReach::TwoHands
     std::string json;        ///< a file; `-`: standard output instead of the table
     std::string csv;         ///< a file
     std::string plot;        ///< histograms, .svg or .png

@@ -32,6 +32,10 @@ Json histogram_json(const ShareHistogram& histogram) {
     return bins;
 }
 
+std::string playing_text(const LatencyReport& report) {
+    return report.two_hands ? "two hands" : "all courses at once";
+}
+
 std::string table_row(std::size_t frames, const char* kind, const Distribution& distribution) {
     return formatted("  %6zu  %-8s %9zu  %7.2f %%  %7.2f %%  %7.2f %%  %7.2f %%\n", frames, kind,
                      distribution.count, 100 * distribution.median, 100 * distribution.p99,
@@ -66,7 +70,7 @@ std::string latency_text(const LatencyReport& report) {
         text += formatted("  %-18s at rest %s, while sounding %s (%zu events)\n",
                           printable(preset.preset).c_str(), delay_text(preset.delay.at_rest).c_str(),
                           delay_text(preset.delay.sounding).c_str(), preset.delay.events);
-    text += "\nCPU time of a block over its duration, adversarial playing, " +
+    text += "\nCPU time of a block over its duration, adversarial playing, " + playing_text(report) + ", " +
             std::to_string(report.rate_hz) + " Hz, quality " + report.quality + ", " + report.processor +
             ":\n";
     text += "raw: every block of every pass; minimum: each block's least over the passes\n";
@@ -108,6 +112,7 @@ std::string latency_json(const LatencyReport& report) {
     const Json json{{"processor", report.processor},
                     {"rate_hz", report.rate_hz},
                     {"quality", report.quality},
+                    {"playing", playing_text(report)},
                     {"presets", presets}};
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -39,6 +39,7 @@ struct LatencyReport {
     std::string processor;
     std::uint32_t rate_hz = 48000;
     std::string quality;
+    bool two_hands = false;
     std::vector<PresetResult> presets;
 };
 

@@ -10,6 +10,7 @@
 #include "instrument/play/impacts.h"
 #include "instrument/play/strokes.h"
 #include "instrument/voice/body.h"
+#include "instrument/voice/pickups.h"
 #include "instrument/voice/voice.h"
 
 namespace jawari {
@@ -17,6 +18,7 @@ namespace {
 
 /// Frames that are computed in one go, string by string: a voice's numbers then stay in the cache.
 constexpr std::size_t longest_run = control_frames;
+static_assert(longest_run <= longest_voice_run);
 
 /// The signals of a run.
 struct Run {
@@ -29,6 +31,21 @@ struct StringRun {
     std::array<VoiceSignals, longest_run> signals{};
 };
 
+/// The voice through the run; frame by frame where impacts are logged.
+void advance_run(const InstrumentModel& model, InstrumentState& state, std::size_t s, Voice& voice,
+                 double smoothing, std::span<VoiceSignals> sums) {
+    const InstrumentStringModel& string = string_of(model, state, s);
+    if (!state.impacts.open) {
+        advance_voice(model, string, voice, smoothing, state, sums);
+        return;
+    }
+    for (std::size_t n = 0; n < sums.size() && voice.phase != VoicePhase::Idle; ++n) {
+        const std::uint64_t impulses = voice.string.counters.impulses;
+        advance_voice(model, string, voice, smoothing, state, sums.subspan(n, 1));
+        if (voice.string.counters.impulses != impulses) log_impacts(string, voice, s, state.impacts);
+    }
+}
+
 void advance_string(const InstrumentModel& model, InstrumentState& state, std::size_t s, double smoothing,
                     std::size_t frames, StringRun& run) {
     InstrumentStringState& string = state.strings[s];
@@ -37,18 +54,7 @@ void advance_string(const InstrumentModel& model, InstrumentState& state, std::s
     for (std::size_t v = 0; v < string.voices.size(); ++v) {
         Voice& voice = string.voices[v];
         if (voice.phase == VoicePhase::Idle) continue;
-        for (std::size_t n = 0; n < frames && voice.phase != VoicePhase::Idle; ++n) {
-            const std::uint64_t impulses = voice.string.counters.impulses;
-            const VoiceSignals signals =
-                advance_voice(model, string_of(model, state, s), voice, smoothing, state);
-            if (state.impacts.open && voice.string.counters.impulses != impulses)
-                log_impacts(string_of(model, state, s), voice, s, state.impacts);
-            VoiceSignals& sum = run.signals[n];
-            sum.pickups += signals.pickups;
-            sum.left += signals.left;
-            sum.right += signals.right;
-            sum.bridge_N += signals.bridge_N;
-        }
+        advance_run(model, state, s, voice, smoothing, {run.signals.data(), frames});
         if (voice.phase != VoicePhase::Idle) {
             string.busy += 1;
         } else if (string.sounding == v) {

@@ -1,6 +1,7 @@
 #include "instrument/touch/exciters.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -18,6 +19,8 @@ constexpr double pi = std::numbers::pi;
 constexpr int most_iterations = 60;
 /// Share of the compression up to which its change is small.
 constexpr double small_change = 0.01;
+/// Exponents up to half of this, in halves, need no power.
+constexpr double most_halves = 16;
 /// A hammer that has not met the string, or not left it, by then is taken away [s].
 constexpr double longest_stroke_s = 0.1;
 
@@ -61,8 +64,18 @@ double finger_force(double frame_s, ExciterState& exciter) {
 
 // ---------------------------------------------------------------------------------------------- hammer
 
+/// x^p; multiples of a half, as felts and fingers have them, by products.
+double power(double x, double exponent) {
+    const double halves = 2 * exponent;
+    if (halves != std::floor(halves) || halves > most_halves) return std::pow(x, exponent);
+    const auto count = static_cast<unsigned>(halves);
+    double result = count % 2 == 1 ? std::sqrt(x) : 1.0;
+    for (unsigned i = 0; i < count / 2; ++i) result *= x;
+    return result;
+}
+
 double felt_force(const ExciterState& hammer, double compression) {
-    return compression > 0 ? hammer.stiffness * std::pow(compression, hammer.exponent) : 0.0;
+    return compression > 0 ? hammer.stiffness * power(compression, hammer.exponent) : 0.0;
 }
 
 /// V at a compression whose force is known: K xi^(p+1)/(p+1).
@@ -70,9 +83,25 @@ double felt_potential(const ExciterState& hammer, double compression, double for
     return force * compression / (hammer.exponent + 1);
 }
 
+/// ((1 + r)^p - 1)/r for |r| < small_change, by nine terms of the binomial series: the tenth is below the
+/// rounding of 1.
+double growth_per_share(double r, double p) {
+    // A quotient for each would cost more than all of the rest.
+    constexpr std::array<double, 8> per_number{1.0 / 9, 1.0 / 8, 1.0 / 7, 1.0 / 6,
+                                               1.0 / 5, 1.0 / 4, 1.0 / 3, 1.0 / 2};
+    double sum = 1;
+    double number = per_number.size();
+    for (const double share : per_number) {
+        sum = 1 + sum * r * (p - number) * share;
+        number -= 1;
+    }
+    return p * sum;
+}
+
 /// The felt at the frame's start.
 struct FeltStep {
     double before = 0;          ///< xi
+    double force = 0;           ///< K xi^p
     double potential = 0;       ///< V(xi)
     double loss_per_metre = 0;  ///< K xi^p loss/T
 };
@@ -90,11 +119,9 @@ FeltForce felt_force_over(const ExciterState& hammer, const FeltStep& step, doub
     FeltForce felt;
     if (step.before > 0 && std::abs(change) < small_change * step.before) {
         // The difference of the potentials without its cancellation.
-        const double order = hammer.exponent + 1;
-        const double growth = std::expm1(order * std::log1p(change / step.before));
-        const double start = order * step.potential / step.before;
-        felt.force_N = change == 0 ? start : step.potential * growth / change;
-        felt.stiffness_N_per_m = hammer.exponent * start / (2 * step.before);
+        felt.force_N =
+            step.potential / step.before * growth_per_share(change / step.before, hammer.exponent + 1);
+        felt.stiffness_N_per_m = hammer.exponent * step.force / (2 * step.before);
     } else if (change != 0) {
         const double force = felt_force(hammer, after);
         felt.force_N = (felt_potential(hammer, after, force) - step.potential) / change;
@@ -105,37 +132,44 @@ FeltForce felt_force_over(const ExciterState& hammer, const FeltStep& step, doub
     return felt.force_N > 0 ? felt : FeltForce{};
 }
 
-/// xi+ = free - give F(xi+): the left side less the right rises with xi+. Newton's method, and halvings of
-/// the bracket where it would leave that.
-double solve_compression(const ExciterState& hammer, const FeltStep& step, double free_m, double give) {
+/// A compression at the frame's end, and the force over the frame.
+struct Compression {
+    double after = 0;
+    double force_N = 0;
+};
+
+/// xi+ = free - give F(xi+): the left side less the right rises with xi+. Newton's method from the
+/// compression at the frame's start, where the force is known, and halvings of the bracket where it would
+/// leave that.
+Compression solve_compression(const ExciterState& hammer, const FeltStep& step, double free_m, double give) {
     double high = free_m;  // F >= 0
     double low = std::min(0.0, std::min(free_m, step.before)) - std::sqrt(give * step.potential);
-    double after = free_m;
+    Compression found{step.before > low && step.before < high ? step.before : free_m, 0};
     for (int i = 0; i < most_iterations; ++i) {
-        const FeltForce felt = felt_force_over(hammer, step, after);
-        const double excess = after - free_m + give * felt.force_N;
+        const FeltForce felt = felt_force_over(hammer, step, found.after);
+        found.force_N = felt.force_N;
+        const double excess = found.after - free_m + give * felt.force_N;
         if (excess == 0) break;
-        (excess > 0 ? high : low) = after;
-        double next = after - excess / (1 + give * felt.stiffness_N_per_m);
+        (excess > 0 ? high : low) = found.after;
+        double next = found.after - excess / (1 + give * felt.stiffness_N_per_m);
         if (!(next > low && next < high)) next = low + (high - low) / 2;
-        const double move = std::abs(next - after);
-        after = next;
+        const double move = std::abs(next - found.after);
         if (move <= std::numeric_limits<double>::epsilon() * std::abs(next)) break;
+        found.after = next;
     }
-    return after;
+    return found;
 }
 
 double hammer_force(const StringAtExciter& at, ExciterState& hammer) {
     const double T = at.frame_s;
     FeltStep step;
     step.before = hammer.position_m - at.displacement_m;
-    const double force_before = felt_force(hammer, step.before);
-    step.potential = felt_potential(hammer, step.before, force_before);
-    step.loss_per_metre = hammer.loss_s_per_m * force_before / T;
+    step.force = felt_force(hammer, step.before);
+    step.potential = felt_potential(hammer, step.before, step.force);
+    step.loss_per_metre = hammer.loss_s_per_m * step.force / T;
     const double give = T * T / (2 * hammer.mass_kg) + at.give_m_per_N;
     const double free_m = hammer.position_m + T * hammer.speed_m_per_s - (at.displacement_m + at.rise_m);
-    const double after = solve_compression(hammer, step, free_m, give);
-    const double force = felt_force_over(hammer, step, after).force_N;
+    const auto [after, force] = solve_compression(hammer, step, free_m, give);
     hammer.position_m += T * hammer.speed_m_per_s - T * T * force / (2 * hammer.mass_kg);
     hammer.speed_m_per_s -= T * force / hammer.mass_kg;
     hammer.has_touched = hammer.has_touched || force > 0;

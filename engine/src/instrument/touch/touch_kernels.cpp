@@ -6,6 +6,7 @@
 #define HWY_TARGET_INCLUDE "instrument/touch/touch_kernels.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 //
+#include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -52,69 +53,88 @@ void free_paths(std::size_t begin, std::size_t end, double lag, const FlightMode
     if (i < rows.count) paths_of<1>(begin, end, lag, flight, q, v, i, rows);
 }
 
-void moved_by_held(std::size_t n, double lag, const FlightModel& flight, const double* HWY_RESTRICT row,
-                   double* HWY_RESTRICT out) {
+template <std::size_t count>
+HWY_INLINE void compliances(std::size_t n, double lag, const FlightModel& flight, const double* const* rows,
+                            double* HWY_RESTRICT out) {
     const Lanes d;
     const Vec minus_lag = hn::Set(d, -lag);
+    Vec sum[count][count];
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t j = 0; j <= i; ++j) sum[i][j] = hn::Zero(d);
+    }
     for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
         const Vec moved = hn::MulAdd(minus_lag, hn::Load(d, flight.v_held.data() + k),
                                      hn::Load(d, flight.q_held.data() + k));
-        hn::Store(hn::Mul(hn::Load(d, row + k), moved), d, out + k);
+        Vec shape[count];
+        for (std::size_t i = 0; i < count; ++i) {
+            shape[i] = hn::Load(d, rows[i] + k);
+            const Vec pushed = hn::Mul(shape[i], moved);
+            for (std::size_t j = 0; j <= i; ++j) sum[i][j] = hn::MulAdd(pushed, shape[j], sum[i][j]);
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t j = 0; j <= i; ++j)
+            out[i * count + j] = out[j * count + i] = hn::GetLane(hn::SumOfLanes(d, sum[i][j]));
     }
 }
 
-/// cos and sin of an angle's multiples, eight apart in every lane.
+void compliances_of(std::size_t n, std::size_t count, double lag, const FlightModel& flight,
+                    const double* const* rows, double* HWY_RESTRICT out) {
+    switch (count) {
+        case 1:
+            return compliances<1>(n, lag, flight, rows, out);
+        case 2:
+            return compliances<2>(n, lag, flight, rows, out);
+        case 3:
+            return compliances<3>(n, lag, flight, rows, out);
+        default:
+            return compliances<most_compliant_rows>(n, lag, flight, rows, out);
+    }
+}
+
+/// cos and sin of an angle's multiples: 1 to lanes times, and lane_padding times.
 struct Turns {
-    HWY_ALIGN double cosine[lane_padding] = {};
-    HWY_ALIGN double sine[lane_padding] = {};
-    double cosine_eight = 1, sine_eight = 0;
+    HWY_INLINE Turns() {}  // NOLINT(modernize-use-equals-default): written out so that it is compiled for the
+                           // target, as Vec's own is
+    Vec cosine, sine, cosine_eight, sine_eight;
 };
 
-/// Of 1 to 8 times the angle.
-HWY_INLINE Turns turns_of(double angle) {
+/// Of the multiples from `lane` + 1 on.
+HWY_INLINE Turns turns_of(double angle, std::size_t lane) {
+    const Lanes d;
+    const Vec multiple = hn::Mul(hn::Iota(d, static_cast<double>(lane + 1)), hn::Set(d, angle));
+    const Vec eight = hn::Set(d, static_cast<double>(lane_padding) * angle);
     Turns turns;
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
-    double x = 1;
-    double y = 0;
-    for (std::size_t i = 0; i < lane_padding; ++i) {
-        const double next = y * c + x * s;
-        x = x * c - y * s;
-        y = next;
-        turns.cosine[i] = x;
-        turns.sine[i] = y;
-    }
-    turns.cosine_eight = x;
-    turns.sine_eight = y;
+    turns.cosine = hn::Cos(d, multiple);
+    turns.sine = hn::Sin(d, multiple);
+    turns.cosine_eight = hn::Cos(d, eight);
+    turns.sine_eight = hn::Sin(d, eight);
     return turns;
+}
+
+/// On by lane_padding multiples.
+HWY_INLINE void turn(Turns& turns) {
+    const Vec sine = hn::MulAdd(turns.sine, turns.cosine_eight, hn::Mul(turns.cosine, turns.sine_eight));
+    turns.cosine = hn::NegMulAdd(turns.sine, turns.sine_eight, hn::Mul(turns.cosine, turns.cosine_eight));
+    turns.sine = sine;
 }
 
 void point_row(std::size_t n, const PointShape& shape, double* HWY_RESTRICT row) {
     const Lanes d;
-    const Turns a = turns_of(shape.a);
     const bool has_width = shape.b > 0;
-    const Turns b = has_width ? turns_of(shape.b) : Turns();
-    HWY_ALIGN double first[lane_padding];
-    for (std::size_t i = 0; i < lane_padding; ++i) first[i] = static_cast<double>(i + 1) * shape.b;
     const Vec scale = hn::Set(d, shape.scale);
-    const Vec ca8 = hn::Set(d, a.cosine_eight), sa8 = hn::Set(d, a.sine_eight);
-    const Vec cb8 = hn::Set(d, b.cosine_eight), sb8 = hn::Set(d, b.sine_eight);
     const Vec eight_b = hn::Set(d, static_cast<double>(lane_padding) * shape.b);
     for (std::size_t lane = 0; lane < lane_padding; lane += hn::Lanes(d)) {
-        Vec ca = hn::Load(d, a.cosine + lane), sa = hn::Load(d, a.sine + lane);
-        Vec cb = hn::Load(d, b.cosine + lane), sb = hn::Load(d, b.sine + lane);
-        Vec z = hn::Load(d, first + lane);
+        Turns a = turns_of(shape.a, lane);
+        Turns b = has_width ? turns_of(shape.b, lane) : a;
+        Vec z = hn::Mul(hn::Iota(d, static_cast<double>(lane + 1)), hn::Set(d, shape.b));
         for (std::size_t k = lane; k < n; k += lane_padding) {
-            Vec value = hn::Mul(scale, sa);
-            if (has_width) value = hn::Mul(value, hn::Div(sb, z));
+            Vec value = hn::Mul(scale, a.sine);
+            if (has_width) value = hn::Mul(value, hn::Div(b.sine, z));
             hn::Store(value, d, row + k);
-            const Vec next_sa = hn::MulAdd(sa, ca8, hn::Mul(ca, sa8));
-            ca = hn::NegMulAdd(sa, sa8, hn::Mul(ca, ca8));
-            sa = next_sa;
+            turn(a);
             if (!has_width) continue;
-            const Vec next_sb = hn::MulAdd(sb, cb8, hn::Mul(cb, sb8));
-            cb = hn::NegMulAdd(sb, sb8, hn::Mul(cb, cb8));
-            sb = next_sb;
+            turn(b);
             z = hn::Add(z, eight_b);
         }
     }
@@ -153,7 +173,7 @@ HWY_AFTER_NAMESPACE();
 namespace jawari::kernels {
 
 HWY_EXPORT(free_paths);
-HWY_EXPORT(moved_by_held);
+HWY_EXPORT(compliances_of);
 HWY_EXPORT(point_row);
 HWY_EXPORT(advance_body);
 
@@ -162,9 +182,9 @@ void free_paths(std::size_t begin, std::size_t end, double lag, const FlightMode
     HWY_DYNAMIC_DISPATCH(free_paths)(begin, end, lag, flight, q, v, rows);
 }
 
-void moved_by_held(std::size_t n, double lag, const FlightModel& flight, const double* row,
-                   double* out) noexcept {
-    HWY_DYNAMIC_DISPATCH(moved_by_held)(n, lag, flight, row, out);
+void compliances_of(std::size_t n, std::size_t count, double lag, const FlightModel& flight,
+                    const double* const* rows, double* out) noexcept {
+    HWY_DYNAMIC_DISPATCH(compliances_of)(n, count, lag, flight, rows, out);
 }
 
 void point_row(std::size_t n, const PointShape& shape, double* row) noexcept {

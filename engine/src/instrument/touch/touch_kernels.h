@@ -22,10 +22,13 @@ struct TouchedRows {  // NOLINT(cppcoreguidelines-pro-type-member-init)
 void free_paths(std::size_t begin, std::size_t end, double lag, const FlightModel& flight, const double* q,
                 const double* v, TouchedRows& rows) noexcept;
 
-/// out <- row (q_held - lag v_held): how far the modes have moved at a frame's end per newton held on the
-/// row.
-void moved_by_held(std::size_t n, double lag, const FlightModel& flight, const double* row,
-                   double* out) noexcept;
+/// Most rows of one sweep of compliances_of().
+inline constexpr std::size_t most_compliant_rows = 4;
+
+/// out[i * count + j] <- sum_k row_i (q_held - lag v_held) row_j over the first n modes: how far i has moved
+/// at a frame's end per newton held at j, for `count` rows, 1 to most_compliant_rows.
+void compliances_of(std::size_t n, std::size_t count, double lag, const FlightModel& flight,
+                    const double* const* rows, double* out) noexcept;
 
 /// Averaging of sine shapes over a width.
 struct PointShape {

@@ -4,17 +4,17 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/small_system.h"
 #include "instrument/touch/exciters.h"
+#include "instrument/touch/touch_forces.h"
 #include "instrument/touch/touch_kernels.h"
+#include "string/frame/frame.h"
 #include "string/kernels/mode_sums.h"
+#include "string/kernels/touched_flight.h"
 #include "string/state/excitation.h"
 
 namespace jawari {
 namespace {
 
-constexpr std::size_t forces = touch_slots + 1;
-constexpr std::size_t exciter_index = touch_slots;
 /// Touches do not reach modes above this.
 constexpr double touch_limit_hz = 12000;
 /// Share of the way to its new pressure that a touch goes in a frame.
@@ -24,10 +24,6 @@ constexpr double pressure_follow = 0.01;
 /// were heard at 12 kHz.
 constexpr double sweep_period_s = 0.04;
 constexpr std::uint64_t sweep_frames = 2;
-
-double frame_s(const StringModel& model) {
-    return model.shape->step_s * static_cast<double>(model.shape->steps_per_frame);
-}
 
 /// Flesh and felt damp what is heard; modes far beyond die by themselves and need not be woken.
 std::size_t modes_in_reach(const StringModel& model) {
@@ -41,27 +37,6 @@ std::size_t modes_in_reach(const StringModel& model) {
 void set_reach(const StringModel& model, Touch& touch) {
     touch.modes = modes_in_reach(model);
     std::fill(touch.row.begin() + static_cast<std::ptrdiff_t>(touch.modes), touch.row.end(), 0.0);
-}
-
-// Of the arrays in the structures below only the first entries, one per force that acts, are ever set or
-// read: this runs for every voice in every frame, and clearing them takes a tenth of its time.
-
-/// The touches and, if it acts, the exciter.
-struct ActiveForces {  // NOLINT(cppcoreguidelines-pro-type-member-init)
-    std::array<std::size_t, forces> index;
-    std::size_t count = 0;
-    std::size_t touches = 0;        ///< those in front
-    std::size_t touched_modes = 0;  ///< that any of them reaches
-    bool sprung = false;            ///< one of them has a spring
-    bool noisy = false;             ///< one of them makes a noise
-};
-
-const AlignedVector<double>& row_of(const TouchState& touches, std::size_t i) {
-    return i == exciter_index ? touches.exciter.row : touches.touches[i].row;
-}
-
-std::size_t modes_of(const StringModel& model, const TouchState& touches, std::size_t i) {
-    return i == exciter_index ? model.shape->stride : touches.touches[i].modes;
 }
 
 /// w = phi (q - h v/2) under each force at the frame's start, and its change over the frame in free flight.
@@ -83,107 +58,46 @@ kernels::TouchedRows free_paths(const StringModel& model, const StringState& str
     return rows;
 }
 
-/// G_ij = sum_k phi_i (q_held - h v_held/2) phi_j; `moved` is scratch.
-void set_compliance_of_touches(const StringModel& model, TouchState& touches, const ActiveForces& active) {
-    const double lag = model.shape->step_s / 2;
-    for (std::size_t a = 0; a < active.count; ++a) {
-        const std::size_t i = active.index[a];
-        const std::size_t modes = modes_of(model, touches, i);
-        const double* row = row_of(touches, i).data();
-        double* moved = touches.moved.data();
-        kernels::moved_by_held(modes, lag, model.tuning.flight, row, moved);
-        for (std::size_t b = 0; b <= a; ++b) {
-            const std::size_t j = active.index[b];
-            const double g = kernels::row_product(std::min(modes, modes_of(model, touches, j)),
-                                                  row_of(touches, j).data(), moved);
-            touches.compliance[i * forces + j] = g;
-            touches.compliance[j * forces + i] = g;
-        }
-    }
-    touches.outdated = false;
-}
-
-/// What the touches answer: force_i = alone_i + by_exciter_i F_exciter.
-struct TouchAnswer {  // NOLINT(cppcoreguidelines-pro-type-member-init)
-    std::array<double, touch_slots> alone;
-    std::array<double, touch_slots> by_exciter;
-};
-
-/// F_i = -(c/T + k/2) (rise_i + sum_j G_ij F_j) - k (w_i - rest_i) + N_i, solved for the F of the touches.
-/// With one right side nothing is said of the exciter.
-template <std::size_t most, std::size_t sides>
-TouchAnswer answer_of(const StringModel& model, const TouchState& touches, const ActiveForces& active,
-                      const kernels::TouchedRows& paths) {
-    TouchAnswer answer;        // NOLINT(cppcoreguidelines-pro-type-member-init): the first n are set
-    SmallSystem<most> system;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
-    const std::size_t n = active.touches;
-    const double per_frame_s = 1 / frame_s(model);
-    for (std::size_t a = 0; a < n; ++a) {
-        const std::size_t i = active.index[a];
-        const Touch& touch = touches.touches[i];
-        const double stiffness = touch.share * touch.stiffness_N_per_m;
-        const double drag = touch.share * touch.damping_kg_per_s * per_frame_s + stiffness / 2;
-        for (std::size_t b = 0; b < n; ++b)
-            system.matrix[a][b] =
-                (a == b ? 1.0 : 0.0) + drag * touches.compliance[i * forces + active.index[b]];
-        system.right[a][0] =
-            -drag * paths.rise[a] - stiffness * (paths.middle[a] - touch.rest_m) + touch.point.noise_N;
-        if (sides == 2) system.right[a][1] = -drag * touches.compliance[i * forces + exciter_index];
-    }
-    solve_small_system<most, sides>(system, n);
-    for (std::size_t a = 0; a < n; ++a) {
-        answer.alone[a] = system.right[a][0];
-        answer.by_exciter[a] = sides == 2 ? system.right[a][1] : 0.0;
-    }
-    return answer;
-}
-
-/// A hand has two places: most often there are no more touches.
-template <std::size_t sides>
-TouchAnswer answer_of_touches(const StringModel& model, const TouchState& touches, const ActiveForces& active,
-                              const kernels::TouchedRows& paths) {
-    if (active.touches <= 2) return answer_of<2, sides>(model, touches, active, paths);
-    return active.touches <= 4 ? answer_of<4, sides>(model, touches, active, paths)
-                               : answer_of<touch_slots, sides>(model, touches, active, paths);
-}
-
-/// How the exciter's point moves: by `rise` without its force, and by `give` per newton of it.
-StringAtExciter string_at_exciter(const StringModel& model, const TouchState& touches,
-                                  const ActiveForces& active, const kernels::TouchedRows& paths,
-                                  const TouchAnswer& answer) {
-    StringAtExciter at;
-    at.frame_s = frame_s(model);
-    at.displacement_m = paths.middle[active.touches];
-    at.rise_m = paths.rise[active.touches];
-    at.give_m_per_N = touches.compliance[exciter_index * forces + exciter_index];
-    for (std::size_t a = 0; a < active.touches; ++a) {
-        const double g = touches.compliance[exciter_index * forces + active.index[a]];
-        at.rise_m += g * answer.alone[a];
-        at.give_m_per_N += g * answer.by_exciter[a];
-    }
-    return at;
-}
-
 void leave(Touch& touch) {
     touch.share_rate = -std::abs(touch.share_rate);
+}
+
+/// Age at which the touch's row was written last.
+std::uint64_t written_at(const Touch& touch) {
+    return (touch.age - 1) / sweep_frames * sweep_frames + 1;
+}
+
+/// Where a sweep is in its way to and fro, -1 to 1.
+double sweep_at(const StringModel& model, std::uint64_t age) {
+    const double turns = static_cast<double>(age) * frame_s(model) / sweep_period_s;
+    return std::sin(2 * std::numbers::pi * turns);
 }
 
 /// Where the touch has lain since its row was written last.
 double place_of(const StringModel& model, const Touch& touch) {
     if (touch.sweep_m == 0 || touch.age == 0) return touch.x_m;
-    const std::uint64_t written = (touch.age - 1) / sweep_frames * sweep_frames + 1;
-    const double turns = static_cast<double>(written) * frame_s(model) / sweep_period_s;
-    return touch.x_m + touch.sweep_m * std::sin(2 * std::numbers::pi * turns);
+    return touch.x_m + touch.sweep_m * sweep_at(model, written_at(touch));
 }
 
-void sweep_touches(const StringModel& model, TouchState& touches, const ActiveForces& active) {
+/// Returns whether one of them was moved.
+bool sweep_touches(const StringModel& model, TouchState& touches, const ActiveForces& active) {
+    bool moved = false;
+    std::uint64_t age = 0;  // a hand's touches were laid together
+    double sweep = 0;
     for (std::size_t a = 0; a < active.touches; ++a) {
         Touch& touch = touches.touches[active.index[a]];
         if (touch.sweep_m == 0) continue;
         if (touch.age++ % sweep_frames != 0) continue;
-        write_point_row(model, touch.modes, place_of(model, touch), touch.width_m, touch.row.data());
-        touches.outdated = true;
+        if (written_at(touch) != age) {
+            age = written_at(touch);
+            sweep = sweep_at(model, age);
+        }
+        write_point_row(model, touch.modes, touch.x_m + touch.sweep_m * sweep, touch.width_m,
+                        touch.row.data());
+        moved = true;
     }
+    touches.outdated = touches.outdated || moved;
+    return moved;
 }
 
 /// The touch comes, follows the pressure, and leaves.
@@ -232,7 +146,7 @@ ActiveForces move_touches(TouchState& touches) {
 
 /// What the frame's forces are, and how far their points go if no contact acts.
 void note_paths(TouchState& touches, const ActiveForces& active, const kernels::TouchedRows& paths,
-                const std::array<double, forces>& force_N) {
+                const std::array<double, most_forces>& force_N) {
     for (std::size_t a = 0; a < active.count; ++a) {
         const std::size_t i = active.index[a];
         TouchedPoint& point = i == exciter_index ? touches.exciter.point : touches.touches[i].point;
@@ -240,8 +154,72 @@ void note_paths(TouchState& touches, const ActiveForces& active, const kernels::
         point.start_m = paths.middle[a];
         point.path_m = paths.rise[a];
         for (std::size_t b = 0; b < active.count; ++b)
-            point.path_m += touches.compliance[i * forces + active.index[b]] * force_N[b];
+            point.path_m += touches.compliance[i * most_forces + active.index[b]] * force_N[b];
     }
+}
+
+void hold(const StringModel& model, StringState& string, const ActiveForces& active,
+          const kernels::TouchedRows& paths, const HeldForces& held) {
+    hold_forces(string, {active.count, held.force_N.data(), paths.row.data()}, active.touched_modes,
+                reach_of(model, active), held.passive);
+}
+
+/// free_paths() in one sweep over the modes that move, in the order of kernels::fly_touched().
+kernels::TouchedRows paths_of_all(const StringModel& model, const StringState& string,
+                                  const TouchState& touches, const ActiveForces& active) {
+    kernels::TouchedRows rows;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
+    rows.count = active.count;
+    for (std::size_t a = 0; a < active.count; ++a) rows.row[a] = row_of(touches, active.index[a]).data();
+    kernels::free_paths(0, string.active_modes, model.shape->step_s / 2, model.tuning.flight,
+                        string.displacement.data(), string.velocity.data(), rows);
+    return rows;
+}
+
+/// What the forces of a frame without contacts do, as meter_touches() has it.
+void meter_flight(const TouchState& touches, const ActiveForces& active, const kernels::TouchedRows& paths,
+                  const std::array<double, most_forces>& force_N, PlayerWork& work) {
+    for (std::size_t a = 0; a < active.count; ++a) {
+        double path_m = paths.rise[a];
+        for (std::size_t b = 0; b < active.count; ++b)
+            path_m += touches.compliance[active.index[a] * most_forces + active.index[b]] * force_N[b];
+        if (a == active.touches) {
+            work.exciters_J += force_N[a] * path_m;
+            continue;
+        }
+        const double noise_N = touches.touches[active.index[a]].point.noise_N;
+        work.touches_J += (force_N[a] - noise_N) * path_m;
+        work.noises_J += noise_N * path_m;
+    }
+}
+
+/// Whether a touch is about to be moved.
+bool will_sweep(const TouchState& touches, const ActiveForces& active) {
+    for (std::size_t a = 0; a < active.touches; ++a) {
+        const Touch& touch = touches.touches[active.index[a]];
+        if (touch.sweep_m != 0 && touch.age % sweep_frames == 0) return true;
+    }
+    return false;
+}
+
+/// The frame under the forces; what its rows do next is known from then on, if it is asked for and nothing is
+/// about to move them. Returns the reading.
+double fly_under(const StringModel& model, StringState& string, const TouchState& touches,
+                 const ActiveForces& active, const kernels::TouchedRows& paths, const HeldForces& held,
+                 TouchedRun& run) {
+    kernels::TouchedFlight frame;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
+    frame.count = active.count;
+    std::copy_n(paths.row.begin(), active.count, frame.row.begin());
+    std::copy_n(held.force_N.begin(), active.count, frame.force_N.begin());
+    frame.read_row = run.read_row;
+    frame.looks_ahead = run.goes_on && !will_sweep(touches, active);
+    cross_touched_frame(model, string, frame, reach_of(model, active), held.passive);
+    if (frame.looks_ahead) {
+        run.known.count = active.count;
+        std::copy_n(frame.row.begin(), active.count, run.known.row.begin());
+        std::copy_n(frame.middle.begin(), active.count, run.known.middle.begin());
+        std::copy_n(frame.rise.begin(), active.count, run.known.rise.begin());
+    }
+    return frame.reading;
 }
 
 }  // namespace
@@ -302,8 +280,7 @@ void lift_touch(TouchState& touches, TouchSlot slot) JAWARI_REALTIME {
 
 void apply_touches(const StringModel& model, StringState& string, TouchState& touches) JAWARI_REALTIME {
     const ActiveForces active = move_touches(touches);
-    const bool excites = active.count > active.touches;
-    if (active.count == 0 || (string.asleep && !excites)) {
+    if (active.count == 0 || (string.asleep && !excites(active))) {
         clear_excitation(string);
         return;
     }
@@ -311,20 +288,33 @@ void apply_touches(const StringModel& model, StringState& string, TouchState& to
     if (active.noisy) make_noises(model, touches, active);
     if (touches.outdated) set_compliance_of_touches(model, touches, active);
     const kernels::TouchedRows paths = free_paths(model, string, touches, active);
-    const TouchAnswer answer = excites ? answer_of_touches<2>(model, touches, active, paths)
-                                       : answer_of_touches<1>(model, touches, active, paths);
-    std::array<double, forces> force_N;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
-    double exciter_N = 0;
-    if (excites) {
-        exciter_N = exciter_force(string_at_exciter(model, touches, active, paths, answer), touches.exciter);
-        force_N[active.touches] = exciter_N;
+    const HeldForces held = solve_forces(model, touches, active, paths);
+    note_paths(touches, active, paths, held.force_N);
+    hold(model, string, active, paths, held);
+}
+
+double fly_touched(const StringModel& model, StringState& string, TouchState& touches, TouchedRun& run,
+                   PlayerWork& work) JAWARI_REALTIME {
+    const ActiveForces active = move_touches(touches);
+    clear_excitation(string);
+    const bool acts = active.count > 0 && (!string.asleep || excites(active));
+    const bool stays = acts && !sweep_touches(model, touches, active);
+    const bool known = stays && run.known.count == active.count;
+    if (acts && active.noisy) make_noises(model, touches, active);
+    if (acts && touches.outdated) set_compliance_of_touches(model, touches, active);
+    const kernels::TouchedRows paths =
+        known ? run.known : (acts ? paths_of_all(model, string, touches, active) : kernels::TouchedRows());
+    const HeldForces held = acts ? solve_forces(model, touches, active, paths) : HeldForces();
+    run.known.count = 0;
+    if (!acts || !held.any || active.count > kernels::most_flight_forces) {
+        if (acts) note_paths(touches, active, paths, held.force_N);
+        if (acts) hold(model, string, active, paths, held);
+        advance_frame(model, string);
+        meter_touches(model, string, touches, false, work);
+        return kernels::row_product(string.active_modes, run.read_row, string.displacement.data());
     }
-    for (std::size_t a = 0; a < active.touches; ++a)
-        force_N[a] = answer.alone[a] + answer.by_exciter[a] * exciter_N;
-    note_paths(touches, active, paths, force_N);
-    const bool passive = exciter_N == 0 && !active.sprung && !active.noisy;
-    hold_forces(string, {active.count, force_N.data(), paths.row.data()}, active.touched_modes,
-                excites ? model.shape->stride : active.touched_modes, passive);
+    meter_flight(touches, active, paths, held.force_N, work);
+    return fly_under(model, string, touches, active, paths, held, run);
 }
 
 void rewrite_touches(const StringModel& model, TouchState& touches, std::size_t kept) JAWARI_REALTIME {

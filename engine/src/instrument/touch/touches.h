@@ -5,6 +5,9 @@
 // Contacts that act within the frame change the path, not the force: PlayerWork tells by how much.
 #pragma once
 
+#include <algorithm>
+
+#include "instrument/touch/touch_kernels.h"
 #include "jawari/detail/string_model.h"
 #include "jawari/detail/string_state.h"
 #include "jawari/detail/touches.h"
@@ -17,6 +20,13 @@ TouchState make_touch_state(std::size_t stride);
 
 /// Nothing touches the string any more.
 void lift_all_touches(TouchState& touches) JAWARI_REALTIME;
+
+/// Whether neither hands nor an exciter act on the string.
+inline bool is_untouched(const TouchState& touches) {
+    if (touches.exciter.phase != ExciterPhase::None) return false;
+    return std::none_of(touches.touches.begin(), touches.touches.end(),
+                        [](const Touch& touch) { return touch.active; });
+}
 
 /// How a touch is to lie on the string.
 struct TouchPlan {
@@ -44,6 +54,18 @@ inline Touch& touch_at(TouchState& touches, TouchSlot slot) {
 
 /// Sets the string's excitation for the coming frame.
 void apply_touches(const StringModel& model, StringState& string, TouchState& touches) JAWARI_REALTIME;
+
+/// A run of frames of a string that nothing can strike, under its touches.
+struct TouchedRun {  // NOLINT(cppcoreguidelines-pro-type-member-init): the first `count` paths are set
+    const double* read_row = nullptr;  ///< over the displacements, StringShape::stride long
+    bool goes_on = false;              ///< another frame of the run follows
+    kernels::TouchedRows known;        ///< of the coming frame, unless `count` is 0
+};
+
+/// apply_touches(), a frame of a string for which flies_always() holds, and meter_touches(), in fewer sweeps.
+/// Returns what `read_row` reads at the frame's end.
+double fly_touched(const StringModel& model, StringState& string, TouchState& touches, TouchedRun& run,
+                   PlayerWork& work) JAWARI_REALTIME;
 
 /// The string has another number of modes from now on, `kept` of which are those it had.
 void rewrite_touches(const StringModel& model, TouchState& touches, std::size_t kept) JAWARI_REALTIME;

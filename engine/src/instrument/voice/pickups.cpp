@@ -6,6 +6,7 @@
 
 #include "instrument/model/stops.h"
 #include "instrument/touch/touches.h"
+#include "string/kernels/flight.h"
 #include "string/kernels/mode_sums.h"
 
 namespace jawari {
@@ -60,6 +61,19 @@ double product(const double* row, const AlignedVector<double>& x, std::size_t mo
     return kernels::row_product(modes, row, x.data());
 }
 
+/// The field grows as the string comes closer.
+bool has_magnet(const PickupDescription& pickup) {
+    return pickup.magnet_distance_m > 0 && pickup.quantity == PickupQuantity::Velocity;
+}
+
+bool reads_velocity(const PickupDescription& pickup) {
+    return pickup.quantity == PickupQuantity::Velocity;
+}
+
+bool reads_displacement(const PickupDescription& pickup) {
+    return pickup.quantity != PickupQuantity::Velocity || has_magnet(pickup);
+}
+
 /// 1 but towards the other end of the mix.
 double share_in_mix(std::size_t pickup, std::size_t count, double mix) {
     if (count < 2) return 1;
@@ -94,22 +108,40 @@ void set_output_rows(StoppedStringModel& stopped, const InstrumentDescription& i
         product(stopped.bridge_row.data(), model.shape->rest_displacement, model.shape->stride);
 }
 
+void set_output_readings(const InstrumentModel& model, const StoppedStringModel& stopped,
+                         OutputReadings& readings) JAWARI_REALTIME {
+    readings.count = 0;
+    const auto add = [&](const double* row, bool of_velocity) {
+        readings.rows[readings.count] = {row, of_velocity, readings.values[readings.count].data()};
+        readings.count += 1;
+    };
+    for (std::size_t i = 0; i < model.pickups.size(); ++i) {
+        const double* row = stopped.pickup_rows.data() + i * stopped.string.shape->stride;
+        if (reads_velocity(model.pickups[i])) add(row, true);
+        if (reads_displacement(model.pickups[i])) add(row, false);
+    }
+    if (model.body.count > 0) add(stopped.bridge_row.data(), false);
+}
+
+void read_outputs(const StringState& string, std::size_t n, const OutputReadings& readings) JAWARI_REALTIME {
+    kernels::read(string.active_modes, readings.span(), string.displacement.data(), string.velocity.data(),
+                  n);
+}
+
 double pickup_signal(const InstrumentModel& model, const StoppedStringModel& stopped,
-                     const StringState& string, double mix) JAWARI_REALTIME {
+                     const OutputReadings& readings, std::size_t n, double mix) JAWARI_REALTIME {
     double sum = 0;
-    const std::size_t modes = string.active_modes;
+    std::size_t row = 0;
     for (std::size_t i = 0; i < model.pickups.size(); ++i) {
         const PickupDescription& pickup = model.pickups[i];
+        const double velocity = reads_velocity(pickup) ? readings.values[row++][n] : 0.0;
+        const double displacement =
+            reads_displacement(pickup) ? readings.values[row++][n] - stopped.pickup_rest[i] : 0.0;
         const double share = share_in_mix(i, model.pickups.size(), mix);
         if (share == 0) continue;
-        const double* row = stopped.pickup_rows.data() + i * stopped.string.shape->stride;
-        const auto displacement = [&] {
-            return product(row, string.displacement, modes) - stopped.pickup_rest[i];
-        };
-        double signal = pickup.quantity == PickupQuantity::Velocity ? product(row, string.velocity, modes)
-                                                                    : displacement();
-        if (pickup.magnet_distance_m > 0 && pickup.quantity == PickupQuantity::Velocity) {
-            const double gap = std::max(closest_share, 1 - displacement() / pickup.magnet_distance_m);
+        double signal = pickup.quantity == PickupQuantity::Velocity ? velocity : displacement;
+        if (has_magnet(pickup)) {
+            const double gap = std::max(closest_share, 1 - displacement / pickup.magnet_distance_m);
             signal /= gap * gap * gap;
         }
         sum += share * pickup.level * signal;
@@ -117,9 +149,9 @@ double pickup_signal(const InstrumentModel& model, const StoppedStringModel& sto
     return sum;
 }
 
-double bridge_force(const StoppedStringModel& stopped, const StringState& string) JAWARI_REALTIME {
-    return product(stopped.bridge_row.data(), string.displacement, string.active_modes) -
-           stopped.bridge_rest_N;
+double bridge_force(const StoppedStringModel& stopped, const OutputReadings& readings,
+                    std::size_t n) JAWARI_REALTIME {
+    return readings.values[readings.count - 1][n] - stopped.bridge_rest_N;
 }
 
 }  // namespace jawari

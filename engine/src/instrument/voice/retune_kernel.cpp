@@ -87,9 +87,11 @@ HWY_INLINE ForceResponse force_response_of(const Step& step, Vec mobility, Vec p
     return force;
 }
 
-void retune(const StoppedStringModel& base, const Retuning& retuning, StringTuning& bent,
-            double* HWY_RESTRICT backward_q, double* HWY_RESTRICT backward_u, const double* HWY_RESTRICT q,
-            double* HWY_RESTRICT v) {
+/// Without `strikes` the string has no contacts, and what tells how its gaps move stays.
+template <bool strikes>
+void retune_string(const StoppedStringModel& base, const Retuning& retuning, StringTuning& bent,
+                   double* HWY_RESTRICT backward_q, double* HWY_RESTRICT backward_u,
+                   const double* HWY_RESTRICT q, double* HWY_RESTRICT v) {
     const Lanes d;
     const StringShape& shape = *base.string.shape;
     const StringTuning& from = base.string.tuning;
@@ -118,7 +120,6 @@ void retune(const StoppedStringModel& base, const Retuning& retuning, StringTuni
         const Vec mobility = hn::Load(d, shape.mobility.data() + k);
         const Vec per_d = hn::Div(one, step.d);
         const ForceResponse force = force_response_of(step, mobility, per_d, h, m);
-        const Vec quality = hn::Div(hn::Add(one, step.e), step.s);
         const auto keep = [&](Vec value, const AlignedVector<double>& old, AlignedVector<double>& out) {
             hn::Store(hn::IfThenElse(bends, value, hn::Load(d, old.data() + k)), d, out.data() + k);
         };
@@ -140,26 +141,31 @@ void retune(const StoppedStringModel& base, const Retuning& retuning, StringTuni
         keep(stiffness, from.certificate.stiffness, certificate.stiffness);
         const Vec extent =
             hn::Sqrt(hn::Mul(hn::Mul(h2, hn::Set(d, 0.5)), hn::Mul(hn::Add(one, step.e), per_d)));
-        const Vec lost = hn::Sub(one, step.e);
-        const Vec lost_and_turned = hn::Add(lost, step.d);
-        const Vec acceleration =  // times 2h, docs/engine/certificate.md, section 2
-            hn::Add(lost, hn::Sqrt(hn::MulAdd(lost_and_turned, lost_and_turned, hn::Mul(step.d, step.s))));
-        const Vec sagitta = hn::Mul(hn::Set(d, h * m * m / 16), acceleration);
-        keep(extent, from.certificate.extent, certificate.extent);
-        const Vec detour = hn::Min(sagitta, hn::Add(extent, extent));
-        keep(detour, from.certificate.detour, certificate.detour);
-        const Vec kick = hn::Mul(hn::Sqrt(hn::Mul(hn::Set(d, 2.0), quality)), mobility);
-        keep(kick, from.certificate.kick, certificate.kick);
-        const auto was = [&](const AlignedVector<double>& old) { return hn::Load(d, old.data() + k); };
-        const auto growth = [&](Vec now, Vec before) {
-            return hn::IfThenElse(bends, hn::Div(now, before), one);
-        };
-        const Vec energy_growth = hn::Div(growth(stiffness, was(from.certificate.stiffness)),
-                                          growth(potential, was(from.potential)));
-        const Vec length_growth = hn::Max(growth(extent, was(from.certificate.extent)),
-                                          growth(detour, was(from.certificate.detour)));
-        reach_growth = hn::Max(reach_growth, hn::Mul(energy_growth, hn::Mul(length_growth, length_growth)));
-        kick_growth = hn::Max(kick_growth, growth(kick, was(from.certificate.kick)));
+        if constexpr (strikes) {
+            const Vec quality = hn::Div(hn::Add(one, step.e), step.s);
+            const Vec lost = hn::Sub(one, step.e);
+            const Vec lost_and_turned = hn::Add(lost, step.d);
+            const Vec acceleration =  // times 2h, docs/engine/certificate.md, section 2
+                hn::Add(lost,
+                        hn::Sqrt(hn::MulAdd(lost_and_turned, lost_and_turned, hn::Mul(step.d, step.s))));
+            const Vec sagitta = hn::Mul(hn::Set(d, h * m * m / 16), acceleration);
+            keep(extent, from.certificate.extent, certificate.extent);
+            const Vec detour = hn::Min(sagitta, hn::Add(extent, extent));
+            keep(detour, from.certificate.detour, certificate.detour);
+            const Vec kick = hn::Mul(hn::Sqrt(hn::Mul(hn::Set(d, 2.0), quality)), mobility);
+            keep(kick, from.certificate.kick, certificate.kick);
+            const auto was = [&](const AlignedVector<double>& old) { return hn::Load(d, old.data() + k); };
+            const auto growth = [&](Vec now, Vec before) {
+                return hn::IfThenElse(bends, hn::Div(now, before), one);
+            };
+            const Vec energy_growth = hn::Div(growth(stiffness, was(from.certificate.stiffness)),
+                                              growth(potential, was(from.potential)));
+            const Vec length_growth = hn::Max(growth(extent, was(from.certificate.extent)),
+                                              growth(detour, was(from.certificate.detour)));
+            reach_growth =
+                hn::Max(reach_growth, hn::Mul(energy_growth, hn::Mul(length_growth, length_growth)));
+            kick_growth = hn::Max(kick_growth, growth(kick, was(from.certificate.kick)));
+        }
         const Vec old_u = hn::Load(d, backward_u + k);
         const Vec old_q = hn::Load(d, backward_q + k);
         const Vec share = hn::Div(step.backward_u, old_u);
@@ -170,9 +176,16 @@ void retune(const StoppedStringModel& base, const Retuning& retuning, StringTuni
         hn::Store(hn::IfThenElse(bends, step.backward_u, old_u), d, backward_u + k);
         hn::Store(hn::IfThenElse(bends, step.backward_q, old_q), d, backward_q + k);
     }
+    if constexpr (!strikes) return;
     bent.certificate.reach_growth = std::sqrt(hn::GetLane(hn::MaxOfLanes(d, reach_growth)));
     bent.certificate.push_growth = hn::GetLane(hn::MaxOfLanes(d, kick_growth));
     bent.certificate.force_reach = from.certificate.force_reach * bent.certificate.push_growth;
+}
+
+void retune(const StoppedStringModel& base, const Retuning& retuning, StringTuning& bent, double* backward_q,
+            double* backward_u, const double* q, double* v) {
+    const auto retune_it = base.string.shape->contact_count > 0 ? retune_string<true> : retune_string<false>;
+    retune_it(base, retuning, bent, backward_q, backward_u, q, v);
 }
 
 }  // namespace jawari::kernels::HWY_NAMESPACE

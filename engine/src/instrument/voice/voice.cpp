@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.h"
 #include "instrument/touch/exciters.h"
 #include "instrument/touch/touches.h"
 #include "instrument/voice/bend.h"
@@ -10,7 +11,10 @@
 #include "instrument/voice/pickups.h"
 #include "jawari/scene/energy.h"
 #include "jawari/scene/render.h"
+#include "string/broad_phase/gap_bounds.h"
+#include "string/frame/frame.h"
 #include "string/kernels/mode_sums.h"
+#include "string/state/excitation.h"
 
 namespace jawari {
 namespace {
@@ -148,6 +152,94 @@ void strike_with(const TangentDescription& tangent, const Strike& strike) {
                   std::max(shortest_tangent_frames, rise));
 }
 
+/// A voice on its way through the frames of advance_voice().
+struct VoiceRun {
+    const InstrumentModel& model;
+    const InstrumentStringModel& string;
+    Voice& voice;
+    double smoothing;
+    InstrumentState& state;
+    OutputReadings& readings;
+};
+
+/// A frame under hands or an exciter.
+void pass_touched(const StringModel& coefficients, VoiceRun& run, std::size_t n) {
+    Voice& voice = run.voice;
+    apply_touches(coefficients, voice.string, voice.touches);
+    const std::uint64_t impulses = voice.string.counters.impulses;
+    advance_frame(coefficients, voice.string);
+    const bool struck = voice.string.counters.impulses != impulses;
+    meter_touches(coefficients, voice.string, voice.touches, struck, run.state.work);
+    read_outputs(voice.string, n, run.readings);
+}
+
+/// The same of a string that nothing can strike and that only the body hears.
+void fly_touched_frame(const StringModel& coefficients, VoiceRun& run, TouchedRun& touched, std::size_t n) {
+    Voice& voice = run.voice;
+    run.readings.values[0][n] =
+        fly_touched(coefficients, voice.string, voice.touches, touched, run.state.work);
+}
+
+/// Whether fly_touched_frame() does what pass_touched() does.
+bool only_flies(const StringModel& coefficients, const VoiceRun& run) {
+    return run.readings.count == 1 && !run.readings.rows[0].of_velocity &&
+           flies_always(coefficients, run.voice.string);
+}
+
+/// Frames until the voice may end: the last of a fade, or one after which its energy is looked at.
+std::size_t frames_to_end(const VoiceRun& run) {
+    const Voice& voice = run.voice;
+    if (voice.fading) return run.model.fade_shape.size() - voice.fade_frame;
+    return static_cast<std::size_t>(rest_check_frames - voice.age % rest_check_frames);
+}
+
+/// Frames of a string that nothing touches, at most `frames`: as many at once as contacts are known to stay
+/// open. Returns how many there were.
+std::size_t pass_untouched(const StringModel& coefficients, VoiceRun& run, std::size_t n,
+                           std::size_t frames) {
+    StringState& string = run.voice.string;
+    clear_excitation(string);
+    const BroadPhaseAnswer answer = plan_frames(coefficients, string);
+    if (answer == BroadPhaseAnswer::Planned) {
+        const auto planned = static_cast<std::size_t>(planned_frames(string));
+        const std::size_t flying = std::min({planned, frames, frames_to_end(run)});
+        fly_ahead(coefficients, string, run.readings.span(), ReadAt::End, n, flying);
+        return flying;
+    }
+    cross_frame(coefficients, string, answer);
+    read_outputs(string, n, run.readings);
+    return 1;
+}
+
+/// What the outputs get of frame n, which the string has passed. `resets`: of the string before that.
+void add_signals(VoiceRun& run, std::size_t n, std::uint64_t resets, VoiceSignals& sum) {
+    const auto& model = run.model;
+    Voice& voice = run.voice;
+    const StoppedStringModel& stopped = run.string.stopped[voice.fret];
+    voice.age += 1;
+    follow_gains(voice, run.smoothing);
+    const double gain = voice.gains.level * fade_gain(model, voice);
+    VoiceSignals signals;
+    signals.pickups = gain * pickup_signal(model, stopped, run.readings, n, voice.gains.mix);
+    signals.left = voice.gains.left * signals.pickups;
+    signals.right = voice.gains.right * signals.pickups;
+    if (model.body.count > 0)
+        signals.bridge_N = gain * voice.gains.body * bridge_force(stopped, run.readings, n);
+    const bool finite = std::isfinite(signals.left + signals.right + signals.bridge_N);
+    if (!finite || voice.string.counters.nonfinite_resets != resets) {
+        // The string is at rest, but what has lost it may be a hand, a hammer or a gain: the voice ends, and
+        // the next note starts with nothing of it.
+        voice.string.counters.nonfinite_resets = resets + 1;
+        finish(voice, run.state);
+        return;
+    }
+    sum.pickups += signals.pickups;
+    sum.left += signals.left;
+    sum.right += signals.right;
+    sum.bridge_N += signals.bridge_N;
+    if (has_ended(model, run.string, voice)) finish(voice, run.state);
+}
+
 }  // namespace
 
 Voice make_voice(const StringSizes& sizes) {
@@ -222,35 +314,31 @@ void fade_voice(Voice& voice) JAWARI_REALTIME {
     leave_obstacles(voice.string);
 }
 
-VoiceSignals advance_voice(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice,
-                           double smoothing, InstrumentState& state) JAWARI_REALTIME {
+void advance_voice(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice,
+                   double smoothing, InstrumentState& state, std::span<VoiceSignals> sums) JAWARI_REALTIME {
+    JAWARI_ASSERT(sums.size() <= longest_voice_run);
     const StringModel& coefficients = voice_model(string, voice);
-    const StoppedStringModel& stopped = string.stopped[voice.fret];
-    apply_touches(coefficients, voice.string, voice.touches);
-    const std::uint64_t impulses = voice.string.counters.impulses;
-    const std::uint64_t resets = voice.string.counters.nonfinite_resets;
-    advance_frame(coefficients, voice.string);
-    const bool struck = voice.string.counters.impulses != impulses;
-    meter_touches(coefficients, voice.string, voice.touches, struck, state.work);
-    voice.age += 1;
-    follow_gains(voice, smoothing);
-    const double gain = voice.gains.level * fade_gain(model, voice);
-    VoiceSignals signals;
-    signals.pickups = gain * pickup_signal(model, stopped, voice.string, voice.gains.mix);
-    signals.left = voice.gains.left * signals.pickups;
-    signals.right = voice.gains.right * signals.pickups;
-    if (model.body.count > 0)
-        signals.bridge_N = gain * voice.gains.body * bridge_force(stopped, voice.string);
-    const bool finite = std::isfinite(signals.left + signals.right + signals.bridge_N);
-    if (!finite || voice.string.counters.nonfinite_resets != resets) {
-        // The string is at rest, but what has lost it may be a hand, a hammer or a gain: the voice ends, and
-        // the next note starts with nothing of it.
-        voice.string.counters.nonfinite_resets = resets + 1;
-        finish(voice, state);
-        return {};
+    OutputReadings readings;  // NOLINT(cppcoreguidelines-pro-type-member-init): set as far as it is read
+    set_output_readings(model, string.stopped[voice.fret], readings);
+    VoiceRun run{model, string, voice, smoothing, state, readings};
+    TouchedRun touched;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
+    const bool flies = only_flies(coefficients, run);
+    if (flies) touched.read_row = readings.rows[0].row;
+    for (std::size_t n = 0; n < sums.size() && voice.phase != VoicePhase::Idle;) {
+        const std::uint64_t resets = voice.string.counters.nonfinite_resets;
+        std::size_t passed = 1;
+        if (is_untouched(voice.touches)) {
+            passed = pass_untouched(coefficients, run, n, sums.size() - n);
+            touched.known.count = 0;
+        } else if (flies) {
+            touched.goes_on = n + 1 < sums.size();
+            fly_touched_frame(coefficients, run, touched, n);
+        } else {
+            pass_touched(coefficients, run, n);
+        }
+        for (const std::size_t end = n + passed; n < end && voice.phase != VoicePhase::Idle; ++n)
+            add_signals(run, n, resets, sums[n]);
     }
-    if (has_ended(model, string, voice)) finish(voice, state);
-    return signals;
 }
 
 double voice_energy(const InstrumentStringModel& string, Voice& voice) JAWARI_REALTIME {

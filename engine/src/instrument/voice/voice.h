@@ -1,6 +1,8 @@
 // One voice, a motion of a string: how it starts, is excited, damped, carried over and ends.
 #pragma once
 
+#include <span>
+
 #include "instrument/model/played_string.h"
 #include "jawari/instrument/model.h"
 #include "jawari/instrument/state.h"
@@ -32,9 +34,11 @@ struct VoiceSignals {
     double bridge_N = 0;  ///< force that drives the body, with level
 };
 
-/// Advances a voice that is not idle by one output frame. May leave it idle.
-VoiceSignals advance_voice(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice,
-                           double smoothing, InstrumentState& state) JAWARI_REALTIME;
+/// Advances the voice by as many output frames as there are `sums`, at most longest_voice_run, or until it
+/// has ended; adds what it gives at the end of each of them. `smoothing`: share of the way to their targets
+/// that gains go in a frame. The numbers do not depend on how frames are divided into runs.
+void advance_voice(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice,
+                   double smoothing, InstrumentState& state, std::span<VoiceSignals> sums) JAWARI_REALTIME;
 
 /// The voice's energy beyond that of its rest [J].
 double voice_energy(const InstrumentStringModel& string, Voice& voice) JAWARI_REALTIME;

@@ -233,6 +233,38 @@ void fly_ahead(const StringModel& model, StringState& state, std::span<const Rea
     for (const Reading& reading : readings) std::fill_n(reading.out + first, frames, 0.0);
 }
 
+bool flies_always(const StringModel& model, const StringState& state) JAWARI_REALTIME {
+    return model.shape->contact_count == 0 && model.shape->drives.spans.empty() && state.skipping.flight &&
+           !steps_uniformly(model, state);
+}
+
+void cross_touched_frame(const StringModel& model, StringState& state, kernels::TouchedFlight& flight,
+                         std::size_t modes, bool passive) JAWARI_REALTIME {
+    JAWARI_ASSERT(flies_always(model, state) && !is_excited(state));
+    ExcitationState& excitation = state.excitation;
+    excitation.strength_N = 0;
+    for (std::size_t i = 0; i < flight.count; ++i) excitation.strength_N += std::abs(flight.force_N[i]);
+    excitation.active = true;
+    excitation.passive = passive;
+    excitation.modes = modes;
+    begin_unplanned_frame(model, state);
+    freshen_bounds(model, state);
+    flight.modes = state.active_modes;
+    flight.lag = model.shape->step_s / 2;
+    flight.flight = &model.tuning.flight;
+    flight.q = state.displacement.data();
+    flight.v = state.velocity.data();
+    flight.q_out = state.displacement_flown.data();
+    flight.v_out = state.velocity_flown.data();
+    const bool finite = kernels::fly_touched(flight);
+    pass_freely(model, state);
+    excitation.active = false;  // nothing was written to its modes
+    excitation.passive = false;
+    excitation.modes = 0;
+    excitation.elapsed = 0;
+    end_frame(model, state, finite);
+}
+
 void cross_frame(const StringModel& model, StringState& state, BroadPhaseAnswer answer) JAWARI_REALTIME {
     const bool planned = answer == BroadPhaseAnswer::Planned;
     if (!planned && !sleeps_on(state)) begin_unplanned_frame(model, state);

@@ -10,6 +10,7 @@
 #include "jawari/realtime.h"
 #include "jawari/scene/render.h"
 #include "string/frame/frame_kind.h"
+#include "string/kernels/touched_flight.h"
 
 namespace jawari {
 
@@ -29,6 +30,16 @@ BroadPhaseAnswer plan_frames(const StringModel& model, StringState& state) JAWAR
 /// just answered Planned, and 1 <= frames <= planned_frames(state).
 void fly_ahead(const StringModel& model, StringState& state, std::span<const Reading> readings, ReadAt when,
                std::size_t first, std::size_t frames) JAWARI_REALTIME;
+
+/// Whether nothing can strike the string and its frames may be flown: what cross_touched_frame() needs.
+bool flies_always(const StringModel& model, const StringState& state) JAWARI_REALTIME;
+
+/// One frame of such a string under the forces of `flight`, of which the caller sets `count`, `row`,
+/// `force_N`, `read_row` and `looks_ahead`; not all of them are 0. They act on the first `modes` (padded)
+/// modes. `passive`: as hold_forces() has it. The string must have no other excitation, and has none
+/// afterwards.
+void cross_touched_frame(const StringModel& model, StringState& state, kernels::TouchedFlight& flight,
+                         std::size_t modes, bool passive) JAWARI_REALTIME;
 
 /// Crosses one frame. `answer`: what plan_frames() has just said.
 void cross_frame(const StringModel& model, StringState& state, BroadPhaseAnswer answer) JAWARI_REALTIME;

@@ -24,13 +24,16 @@ constexpr double row_overhead = 16;
 void drive_by_excitation(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
     const ExcitationState& excitation = state.excitation;
-    std::fill(near.force_rows.begin(), near.force_rows.end(), 0.0);
-    kernels::add_impulse(model.shape->stride, 1.0, model.shape->mobility.data(), excitation.held.data(),
+    const std::size_t modes = model.shape->stride;
+    std::fill_n(near.force_rows.begin(), modes, 0.0);
+    kernels::add_impulse(modes, 1.0, model.shape->mobility.data(), excitation.held.data(),
                          near.force_rows.data());
-    kernels::add_impulse(model.shape->stride, 1.0, model.shape->mobility.data(), excitation.ramp.data(),
-                         near.force_rows.data() + model.shape->stride);
+    std::fill_n(near.force_impulses.begin(), model.shape->steps_per_frame, model.shape->step_s);
+    if (!excitation.ramps) return;
+    std::fill_n(near.force_rows.begin() + static_cast<std::ptrdiff_t>(modes), modes, 0.0);
+    kernels::add_impulse(modes, 1.0, model.shape->mobility.data(), excitation.ramp.data(),
+                         near.force_rows.data() + modes);
     for (std::size_t n = 0; n < model.shape->steps_per_frame; ++n) {
-        near.force_impulses[n] = model.shape->step_s;
         near.force_impulses[model.shape->response_stride + n] =
             model.shape->step_s * static_cast<double>(excitation.elapsed + n);
     }
@@ -40,8 +43,8 @@ void drive_by_excitation(const StringModel& model, StringState& state) {
 void run_free(const StringModel& model, StringState& state, std::size_t first) {
     NearState& near = state.near_frame;
     const ContactState& contact = state.contact;
-    std::copy(state.displacement.begin(), state.displacement.end(), near.displacement.begin());
-    std::copy(state.velocity.begin(), state.velocity.end(), near.velocity.begin());
+    std::copy_n(state.displacement.begin(), state.active_modes, near.displacement.begin());
+    std::copy_n(state.velocity.begin(), state.active_modes, near.velocity.begin());
     kernels::ModeRun run = kernels::frame_run(model);
     run.modes = state.active_modes;
     for (std::size_t i = first; i < contact.near.size(); ++i) {
@@ -182,8 +185,8 @@ bool solve_in_contact_space(const StringModel& model, StringState& state) {
 void run_impulses(const StringModel& model, StringState& state) {
     NearState& near = state.near_frame;
     state.active_modes = model.shape->stride;
-    std::fill(near.displacement.begin(), near.displacement.end(), 0.0);
-    std::fill(near.velocity.begin(), near.velocity.end(), 0.0);
+    std::fill_n(near.displacement.begin(), model.shape->stride, 0.0);
+    std::fill_n(near.velocity.begin(), model.shape->stride, 0.0);
     kernels::ModeRun run = kernels::frame_run(model);
     for (std::size_t i = 0; i < near.struck.size(); ++i) {
         near.rows[i] = model.shape->contact_rows.data() + near.struck[i] * model.shape->stride;

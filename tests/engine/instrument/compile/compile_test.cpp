@@ -102,7 +102,8 @@ TEST(InstrumentCompile, FullVelocityLiftsTheStringAsHighAsSaid) {
         double highest = 0;
         const double x = string.stopped[fret].string.shape->length_m - 0.16;
         while (voice.touches.exciter.phase != ExciterPhase::None) {
-            advance_voice(model, string, voice, 1, state);
+            VoiceSignals signals;
+            advance_voice(model, string, voice, 1, state, {&signals, 1});
             double lift = 0;
             for (std::size_t k = 0; k < string.stopped[fret].string.shape->mode_count; ++k) {
                 lift += mode_shape(k + 1, x, string.stopped[fret].string.shape->length_m) *

@@ -131,7 +131,10 @@ TEST(Pickup, BridgeForceIsTensionTimesSlope) {
     const double L = stopped.string.shape->length_m;
     const double tension = 4 * L * L * 41.20344461410875 * 41.20344461410875 * 0.0354;
     const double slope = 1e-3 / (L - 0.5);
-    EXPECT_NEAR(bridge_force(stopped, voice.string), tension * slope, 3e-3 * tension * slope);
+    OutputReadings readings;
+    set_output_readings(model, stopped, readings);
+    read_outputs(voice.string, 0, readings);
+    EXPECT_NEAR(bridge_force(stopped, readings, 0), tension * slope, 3e-3 * tension * slope);
 }
 
 TEST(Pickup, QuantitiesMixAndMagnet) {
@@ -151,9 +154,12 @@ TEST(Pickup, QuantitiesMixAndMagnet) {
     const double first = 2 * 0.7 * near;
     const double second = 5 * 1e-3 * far;
     const double third = 0.7 * near / (gap * gap * gap);
-    EXPECT_NEAR(pickup_signal(model, stopped, voice.string, 0.5), first + second + third, 1e-12);
-    EXPECT_NEAR(pickup_signal(model, stopped, voice.string, 0), first, 1e-12);
-    EXPECT_NEAR(pickup_signal(model, stopped, voice.string, 1), second + third, 1e-12);
+    OutputReadings readings;
+    set_output_readings(model, stopped, readings);
+    read_outputs(voice.string, 0, readings);
+    EXPECT_NEAR(pickup_signal(model, stopped, readings, 0, 0.5), first + second + third, 1e-12);
+    EXPECT_NEAR(pickup_signal(model, stopped, readings, 0, 0), first, 1e-12);
+    EXPECT_NEAR(pickup_signal(model, stopped, readings, 0, 1), second + third, 1e-12);
 }
 
 /// A low pass of second order: |H| = 1/|1 - r^2 + i r/Q|, r = f/f0; its level is Q at f0, and 1 far below.
@@ -167,8 +173,11 @@ TEST(Pickup, ACoilWeighsEachPartialAtItsFrequency) {
     start_voice(model, model.strings[0], voice, 0, 0, 0);
     for (const std::size_t k : {1U, 5U, 9U, 10U, 40U}) {
         voice.string.velocity[k - 1] = 1;
-        const double plain = pickup_signal(model, stopped, voice.string, 0);
-        const double heard = pickup_signal(model, stopped, voice.string, 1);
+        OutputReadings readings;
+        set_output_readings(model, stopped, readings);
+        read_outputs(voice.string, 0, readings);
+        const double plain = pickup_signal(model, stopped, readings, 0, 0);
+        const double heard = pickup_signal(model, stopped, readings, 0, 1);
         voice.string.velocity[k - 1] = 0;
         const double n = static_cast<double>(k);
         const double f = n * 41.20344461410875 * std::sqrt((1 + 9e-5 * n * n) / (1 + 9e-5));

@@ -70,10 +70,19 @@ TEST(InstrumentKernels, HeldForcesMoveRowsAndAddUp) {
     for (std::size_t i = 0; i < touch_slots + 1; ++i) row.push_back(random_row(random));
     for (const auto& one : row) rows.push_back(one.data());
     const auto scales = random_row(random);
-    AlignedVector<double> moved(n), sum(n);
-    kernels::moved_by_held(n, lag, flight, row[0].data(), moved.data());
-    for (std::size_t k = 0; k < n; ++k)
-        EXPECT_NEAR(moved[k], row[0][k] * (flight.q_held[k] - lag * flight.v_held[k]), 1e-15);
+    AlignedVector<double> sum(n);
+    for (std::size_t count = 1; count <= kernels::most_compliant_rows; ++count) {
+        std::vector<double> compliance(count * count);
+        kernels::compliances_of(n, count, lag, flight, rows.data(), compliance.data());
+        for (std::size_t i = 0; i < count * count; ++i) {
+            long double moved = 0;
+            for (std::size_t k = 0; k < n; ++k)
+                moved += row[i / count][k] *
+                         (flight.q_held[k] - static_cast<long double>(lag) * flight.v_held[k]) *
+                         row[i % count][k];
+            EXPECT_NEAR(compliance[i], static_cast<double>(moved), 1e-13) << count << " " << i;
+        }
+    }
     for (std::size_t count = 1; count <= rows.size(); ++count) {
         kernels::sum_rows(n, count, scales.data(), rows.data(), sum.data());
         for (std::size_t k = 0; k < n; ++k) {

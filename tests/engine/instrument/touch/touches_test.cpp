@@ -3,13 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "instrument/touch/exciters.h"
 #include "jawari/scene/energy.h"
 #include "jawari/scene/render.h"
+#include "string/frame/frame.h"
 #include "string/state/excitation.h"
 #include "support/scenes.h"
 
@@ -83,6 +86,68 @@ void play_frame(const StringModel& model, StringState& state, TouchState& touche
     apply_touches(model, state, touches);
     advance_frame(model, state);
     meter_touches(model, state, touches, state.counters.impulses != impulses, work);
+}
+
+/// A damping hand that sweeps, a finger that lets go, and more touches than one sweep takes.
+void lay_some(const StringModel& model, const StringState& state, TouchState& touches, int trial) {
+    const int count = trial % 3 == 2 ? static_cast<int>(touch_slots) : 1 + trial % 3;
+    for (int i = 0; i < count; ++i) {
+        lay_touch(model, state, touches, static_cast<TouchSlot>(i),
+                  {.x_m = 0.05 + 0.07 * i,
+                   .sweep_m = i < 2 ? 0.02 : 0.0,
+                   .damping_kg_per_s = 0.3,
+                   .stiffness_N_per_m = i == 3 ? 200.0 : 0.0,
+                   .frames = i == 1 ? 40U : 0U,
+                   .ease_frames = 20,
+                   .noise_N = i == 0 ? 0.02 : 0.0,
+                   .noise_frames = 100});
+    }
+    if (trial % 2 == 0) return;
+    HammerDescription hammer;
+    hammer.mass_kg = 0.003;
+    hammer.stiffness = 1e8;
+    hammer.exponent = trial % 4 == 1 ? 1.5 : 2.3;
+    hammer.loss_s_per_m = 0.1;
+    begin_hammer(model, state, touches.exciter, 0.08, 0.003, hammer, 3, 1);
+    touches.outdated = true;
+}
+
+/// The same frames sweep by sweep, whatever is known of the next one.
+TEST(Touches, FlightsUnderThemAreFramesUnderThem) {
+    std::mt19937 random(12);
+    for (int trial = 0; trial < 12; ++trial) {
+        const StringModel model = lossless_string(120, 192000, false);
+        StringState state = make_string_state(model);
+        TouchState touches = make_touch_state(model.shape->stride);
+        stir(model, state, random);
+        lay_some(model, state, touches, trial);
+        const AlignedVector<double> read(model.shape->stride, 0.7);
+        std::vector<StringState> flown(2, state);
+        std::vector<TouchState> touched(2, touches);
+        std::vector<PlayerWork> flown_work(2);
+        std::vector<TouchedRun> runs(2);
+        PlayerWork work;
+        ASSERT_TRUE(flies_always(model, state));
+        const double scale = energy(model, state) + 0.02;
+        for (int frame = 0; frame < 400; ++frame) {
+            play_frame(model, state, touches, work);
+            double sum = 0;
+            for (const double q : state.displacement) sum += 0.7 * q;
+            std::array<double, 2> readings{};
+            for (std::size_t i = 0; i < 2; ++i) {
+                runs[i].read_row = read.data();
+                runs[i].goes_on = i == 0 && frame % 32 != 31;  // the second knows nothing of what comes
+                readings[i] = fly_touched(model, flown[i], touched[i], runs[i], flown_work[i]);
+            }
+            ASSERT_NEAR(readings[0], sum, 1e-12) << trial << " " << frame;
+            ASSERT_EQ(readings[0], readings[1]) << trial << " " << frame;
+        }
+        EXPECT_NEAR(flown_work[0].touches_J, work.touches_J, 1e-9 * scale) << trial;
+        EXPECT_NEAR(flown_work[0].exciters_J, work.exciters_J, 1e-9 * scale) << trial;
+        EXPECT_NEAR(flown_work[0].noises_J, work.noises_J, 1e-9 * scale) << trial;
+        EXPECT_NE(work.noises_J, 0) << trial;
+        EXPECT_NEAR(energy(model, flown[0]), energy(model, state), 1e-9 * scale) << trial;
+    }
 }
 
 /// On strings without losses of their own nothing but the touches' measured work changes H, and what dashpots

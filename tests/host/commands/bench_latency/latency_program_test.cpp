@@ -120,6 +120,29 @@ TEST(Latency, OrderStatisticsOfKnownNumbers) {
     EXPECT_EQ(distribution_of({}).count, 0U);
 }
 
+/// Two hands strike ten keys at once, all courses in turn, and the pedal comes up for the runs alone.
+TEST(Latency, TwoHandsReachEverythingByTen) {
+    const SharedInstrument instrument = small_live_instrument("harpsichord");
+    Adversary adversary(instrument->model, 3, AdversaryReach::TwoHands);
+    std::array<bool, 128> struck{};
+    std::size_t pedal_up = 0, pedal_down = 0;
+    for (int block = 0; block < 3000; ++block) {
+        std::size_t notes = 0;
+        for (const AdversaryMessage& message : adversary.next(64)) {
+            const ChannelMessage& sent = message.message;
+            const bool pedal = kind_of(sent) == MessageKind::ControlChange && sent.data1 == 64;
+            if (pedal) (sent.data2 > 0 ? pedal_down : pedal_up) += 1;
+            if (kind_of(sent) != MessageKind::NoteOn || sent.data2 == 0) continue;
+            notes += 1;
+            struck[sent.data1] = true;
+        }
+        EXPECT_LE(notes, 12U) << block;  // a chord, and a cable's next messages
+    }
+    EXPECT_GT(pedal_down, 3 * pedal_up);
+    for (const InstrumentStringModel& string : instrument->model.strings)
+        EXPECT_TRUE(struck[static_cast<std::size_t>(string.stopped.front().key)]) << string.name;
+}
+
 /// The adversary plays what it says: every course, every parameter, within the instrument's compass.
 TEST(Latency, TheAdversaryLeavesNothingOut) {
     const SharedInstrument instrument = small_live_instrument("guitar-steel");
