@@ -31,14 +31,20 @@ processor_seconds() {
     used_s=$(tail -n 1 "$logs/times" | tr 'ms' '  ' | awk '{ printf "%d", 60 * ($1 + $3) + $2 + $4 }')
 }
 
-# stage NAME COMMAND...: runs it, keeps its output, notes failure and time.
+# stage NAME COMMAND...: runs it, keeps its output, notes failure and time. Exit code 77: cannot be done on this machine.
 stage() {
     local name=$1 start=$SECONDS start_used result=passed took
     processor_seconds
     start_used=$used_s
     shift
     printf '\n== %s\n' "$name"
-    "$@" 2>&1 | tee "$logs/last" || result=FAILED
+    "$@" 2>&1 | tee "$logs/last"
+    local status=${PIPESTATUS[0]}
+    if ((status == 77)); then
+        result="skipped, $(sed -n 's/^SKIPPED: //p' "$logs/last" | head -n 1)"
+    elif ((status != 0)); then
+        result=FAILED
+    fi
     processor_seconds
     took="$((SECONDS - start)) s (processors $((used_s - start_used)) s)"
     stages+=("$name: $result, $took")
