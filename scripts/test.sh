@@ -98,10 +98,10 @@ if $full; then
     stage "instruction counts" benchmarks/instructions/count.py
     stage "lint" scripts/lint.sh
     stage "other instruction sets" scripts/check_neon.sh
-    stage "build (asan-ubsan)" build asan-ubsan jawari engine_tests host_tests thread_tests plugin_tests play_tests stress_tests \
-        jawari_fuzzers &&
-        tests asan-ubsan -LE 'peers|presets|examples|live|hosts' && stage "fuzzing" fuzz
-    stage "build (tsan)" build tsan jawari thread_tests plugin_tests && tests tsan -L 'threads|plugin'
+    stage "build (asan-ubsan)" build asan-ubsan jawari engine_tests host_tests thread_tests plugin_tests play_tests window_tests \
+        stress_tests jawari_fuzzers &&
+        tests asan-ubsan -LE 'peers|presets|examples|live|hosts|window' && stage "fuzzing" fuzz
+    stage "build (tsan)" build tsan jawari thread_tests plugin_tests window_tests && tests tsan -L 'threads|plugin'
 fi
 
 printf '%s\n' "${failures[@]}"
