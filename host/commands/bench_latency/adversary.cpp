@@ -22,6 +22,19 @@ int controller_of(std::size_t parameter) {
     return static_cast<int>(parameter < 12 ? 20 + parameter : 102 + parameter - 12);
 }
 
+/// By course, low to high.
+std::vector<std::vector<int>> keys_of_courses(const InstrumentModel& model) {
+    std::vector<std::vector<int>> all;
+    for (const CourseModel& course : model.courses) {
+        std::vector<int> keys;
+        for (const StoppedStringModel& stopped : model.strings[course.strings.front()].stopped) {
+            if (stopped.key >= 0) keys.push_back(stopped.key);
+        }
+        if (!keys.empty()) all.push_back(std::move(keys));
+    }
+    return all;
+}
+
 }  // namespace
 
 MidiMap adversary_map() {
@@ -43,17 +56,13 @@ std::string adversary_map_text() {
 }
 
 Adversary::Adversary(const InstrumentModel& model, std::uint32_t seed, AdversaryReach reach)
-    : rate_hz_(model.output_rate_hz), reach_(reach), random_(seed) {
-    for (const CourseModel& course : model.courses) {
-        std::vector<int> keys;
-        for (const StoppedStringModel& stopped : model.strings[course.strings.front()].stopped) {
-            if (stopped.key >= 0) keys.push_back(stopped.key);
-        }
-        if (!keys.empty()) keys_.push_back(std::move(keys));
-    }
-    in_turn_.resize(keys_.size());
+    : rate_hz_(model.output_rate_hz),
+      reach_(reach),
+      keys_(keys_of_courses(model)),
+      random_(seed),
+      in_turn_(keys_.size()),
+      struck_(keys_.size()) {
     std::iota(in_turn_.begin(), in_turn_.end(), std::size_t{0});
-    struck_ = in_turn_.size();
 }
 
 const std::vector<AdversaryMessage>& Adversary::next(std::size_t frames) {

@@ -67,7 +67,7 @@ class Adversary {
     std::vector<AdversaryMessage> messages_;
     std::vector<int> down_;             // keys
     std::vector<std::size_t> in_turn_;  // two hands: courses of this time round
-    std::size_t struck_ = 0;            // of those
+    std::size_t struck_;                // of those
     std::uint64_t frame_ = 0;
     double next_message_ = 0;  // frame
     std::uint64_t next_chord_ = 0, next_passage_ = 0;
