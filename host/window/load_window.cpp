@@ -20,7 +20,7 @@ std::string module_path() {
     const std::string own = platform::path_of_code(reinterpret_cast<const void*>(&module_path));
     const std::string folder = folder_of(own.empty() ? platform::own_path() : own);
     for (const std::string& place : {folder, folder + "/../lib/jawari"}) {
-        const std::string path = place + "/" + module_file;
+        std::string path = place + "/" + module_file;
         if (platform::file_facts(path)) return path;
     }
     return {};

@@ -44,9 +44,9 @@ std::vector<PianoKey> piano_keys(const Box& box, int lowest, int highest) {
 }
 
 std::optional<int> key_at(const std::vector<PianoKey>& keys, float x, float y) {
-    for (auto key = keys.rbegin(); key != keys.rend(); ++key)
-        if (key->box.has(x, y)) return key->key;
-    return std::nullopt;
+    const auto key =
+        std::find_if(keys.rbegin(), keys.rend(), [&](const PianoKey& one) { return one.box.has(x, y); });
+    return key == keys.rend() ? std::nullopt : std::optional(key->key);
 }
 
 double velocity_at(const PianoKey& key, float y) {

@@ -41,8 +41,11 @@ class ClosableWindow : public DGL_NAMESPACE::Window {
 class DglWindow : public Window {
   public:
     DglWindow(const WindowRequest& request, Performance& performance, std::unique_ptr<X11Display> display)
-        : performance_(performance), display_(std::move(display)), app_(false), view_(performance) {
-        scale_ = request.scale > 0 ? request.scale : 1;
+        : performance_(performance),
+          display_(std::move(display)),
+          app_(false),
+          view_(performance),
+          scale_(request.scale > 0 ? request.scale : 1) {
         WindowSize size = request.size;
         if (size == WindowSize{}) size = {pixels(usual_width, scale_), pixels(usual_height, scale_)};
         // 0 as the scale: DPF asks the system.
@@ -123,7 +126,7 @@ class DglWindow : public Window {
     MainView view_;
     std::unique_ptr<ClosableWindow> window_;
     std::unique_ptr<Surface> surface_;
-    double scale_ = 1;
+    double scale_;
     std::uintptr_t parent_ = 0;
     bool shown_ = false;
 };

@@ -6,9 +6,9 @@ namespace jawari::host::window {
 
 using theme::grid;
 
-PresetsPanel::PresetsPanel(Shared& shared) : Panel(shared), presets_(list_presets()) {
+PresetsPanel::PresetsPanel(Shared& shared)
+    : Panel(shared), presets_(list_presets()), version_(shared.performance.preset().version) {
     find();
-    version_ = shared_.performance.preset().version;
     const std::string& name = shared_.performance.preset().name;
     for (std::size_t row = 0; row < found_.size(); ++row)
         if (presets_[found_[row]].name == name) marked_ = row;

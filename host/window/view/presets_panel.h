@@ -50,7 +50,7 @@ class PresetsPanel : public Panel {
     std::size_t first_ = 0;   ///< row on top of the list
     std::size_t marked_ = 0;  ///< row that keys choose
     std::size_t under_ = no_stop;
-    unsigned version_ = 0;
+    unsigned version_;
     bool compiling_ = false;
 };
 
