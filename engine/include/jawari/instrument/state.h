@@ -53,6 +53,15 @@ struct VoiceGains {
     double mix = 0.5;  ///< ParameterId::PickupMix
 };
 
+/// What a change of quality level took from what outputs read of a voice: modes that are left out, and the
+/// moment of velocities, which are those of the contact step before. It fades as a voice does (fade_shape).
+struct QualityRemainder {
+    bool active = false;    ///< the fields below hold
+    double pickups = 0;     ///< before the voice's gains [unit of the pickups]
+    double bridge_N = 0;    ///< before the voice's gains [N]
+    std::size_t frame = 0;  ///< index into InstrumentModel::fade_shape
+};
+
 /// One voice of one string: a motion from its excitation until it is at rest.
 struct Voice {
     VoicePhase phase = VoicePhase::Idle;  ///< what it is doing
@@ -67,6 +76,7 @@ struct Voice {
     bool rests_on_obstacles = false;      ///< its stop holds energy at rest
     std::size_t fade_frame = 0;           ///< index into InstrumentModel::fade_shape while fading
     std::size_t rise_frame = 0;           ///< of fading in after legato; at the shape's end: fully in
+    QualityRemainder remainder;           ///< of the last change of quality level
     VoiceGains gains;                     ///< in force; they follow `targets` smoothly
     VoiceGains targets;                   ///< set every 32 output frames from the channel's controls
 };

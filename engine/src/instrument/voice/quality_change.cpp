@@ -6,6 +6,7 @@
 #include "instrument/model/played_string.h"
 #include "instrument/touch/touches.h"
 #include "instrument/voice/bend.h"
+#include "instrument/voice/pickups.h"
 #include "jawari/instrument/qualities.h"
 #include "jawari/scene/energy.h"
 
@@ -29,14 +30,31 @@ void convert_modes(const StringModel& source, const double* backward_q, const do
     }
 }
 
-void change_voice(const InstrumentStringModel& from, const InstrumentStringModel& to, Voice& voice,
-                  PlayerWork& work) {
+/// What outputs read of a voice, before its gains, what is left of an earlier change included.
+QualityRemainder read_voice(const InstrumentModel& model, const StoppedStringModel& stopped,
+                            const Voice& voice) {
+    OutputReadings readings;  // NOLINT(cppcoreguidelines-pro-type-member-init): set as far as it is read
+    set_output_readings(model, stopped, readings);
+    read_outputs(voice.string, 0, readings);
+    QualityRemainder read;
+    read.pickups = pickup_signal(model, stopped, readings, 0, voice.gains.mix);
+    if (model.body.count > 0) read.bridge_N = bridge_force(stopped, readings, 0);
+    if (!voice.remainder.active) return read;
+    const double gain = model.fade_shape[voice.remainder.frame];
+    read.pickups += gain * voice.remainder.pickups;
+    read.bridge_N += gain * voice.remainder.bridge_N;
+    return read;
+}
+
+void change_voice(const InstrumentModel& model, const InstrumentStringModel& from,
+                  const InstrumentStringModel& to, Voice& voice, PlayerWork& work) {
     const StoppedStringModel& left = from.stopped[voice.fret];
     const StoppedStringModel& reached = to.stopped[voice.fret];
     const StringModel& source = voice_model(from, voice);
     const bool bent = voice.bend.active;
     const double semitones = voice.bend.semitones;
     const double before = energy(source, voice.string);
+    const QualityRemainder heard = read_voice(model, left, voice);
     convert_modes(source, bent ? voice.bend.backward_q.data() : left.backward_q.data(),
                   bent ? voice.bend.backward_u.data() : left.backward_u.data(), reached, voice.string);
     const std::size_t kept = std::min(source.shape->mode_count, reached.string.shape->mode_count);
@@ -48,6 +66,10 @@ void change_voice(const InstrumentStringModel& from, const InstrumentStringModel
     rewrite_touches(now, voice.touches, kept);
     const double change_J = energy(now, voice.string) - before;
     if (std::isfinite(change_J)) work.quality_changes_J += change_J;
+    voice.remainder = {};
+    const QualityRemainder read = read_voice(model, reached, voice);
+    voice.remainder = {true, heard.pickups - read.pickups, heard.bridge_N - read.bridge_N, 0};
+    if (!std::isfinite(voice.remainder.pickups + voice.remainder.bridge_N)) voice.remainder = {};
 }
 
 }  // namespace
@@ -61,7 +83,7 @@ void change_quality(const InstrumentModel& model, InstrumentState& state, std::s
     string.quality_level = quality_level;
     const InstrumentStringModel& to = string_of(model, state, s);
     for (Voice& voice : string.voices) {
-        if (voice.phase != VoicePhase::Idle) change_voice(from, to, voice, state.work);
+        if (voice.phase != VoicePhase::Idle) change_voice(model, from, to, voice, state.work);
     }
 }
 

@@ -49,6 +49,17 @@ double fade_gain(const InstrumentModel& model, Voice& voice) {
     return gain;
 }
 
+/// What a change of quality level has left goes on, and fades.
+void add_remainder(const InstrumentModel& model, QualityRemainder& remainder, double& pickups,
+                   double& bridge_N) {
+    if (!remainder.active) return;
+    const double gain = model.fade_shape[remainder.frame];
+    pickups += gain * remainder.pickups;
+    bridge_N += gain * remainder.bridge_N;
+    remainder.frame += 1;
+    remainder.active = remainder.frame < model.fade_shape.size();
+}
+
 bool has_ended(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice) {
     if (voice.fading) return voice.fade_frame >= model.fade_shape.size();
     if (voice.age % rest_check_frames != 0 || voice.touches.exciter.phase != ExciterPhase::None) return false;
@@ -219,12 +230,14 @@ void add_signals(VoiceRun& run, std::size_t n, std::uint64_t resets, VoiceSignal
     voice.age += 1;
     follow_gains(voice, run.smoothing);
     const double gain = voice.gains.level * fade_gain(model, voice);
+    double pickups = pickup_signal(model, stopped, run.readings, n, voice.gains.mix);
+    double bridge_N = model.body.count > 0 ? bridge_force(stopped, run.readings, n) : 0.0;
+    add_remainder(model, voice.remainder, pickups, bridge_N);
     VoiceSignals signals;
-    signals.pickups = gain * pickup_signal(model, stopped, run.readings, n, voice.gains.mix);
+    signals.pickups = gain * pickups;
     signals.left = voice.gains.left * signals.pickups;
     signals.right = voice.gains.right * signals.pickups;
-    if (model.body.count > 0)
-        signals.bridge_N = gain * voice.gains.body * bridge_force(stopped, run.readings, n);
+    signals.bridge_N = gain * voice.gains.body * bridge_N;
     const bool finite = std::isfinite(signals.left + signals.right + signals.bridge_N);
     if (!finite || voice.string.counters.nonfinite_resets != resets) {
         // The string is at rest, but what has lost it may be a hand, a hammer or a gain: the voice ends, and
@@ -265,6 +278,7 @@ void reset_voice(Voice& voice) JAWARI_REALTIME {
     voice.rests_on_obstacles = false;
     voice.fade_frame = 0;
     voice.rise_frame = 0;
+    voice.remainder = {};
     voice.gains = {};
     voice.targets = {};
 }
@@ -279,6 +293,7 @@ void start_voice(const InstrumentModel& model, const InstrumentStringModel& stri
     voice.fading = false;
     voice.fade_frame = 0;
     voice.rise_frame = model.fade_shape.size();
+    voice.remainder = {};
     voice.slide.active = false;
     voice.rests_on_obstacles = stopped.held_energy_J != 0;
     forget_bend(voice);
