@@ -17,9 +17,8 @@
 namespace jawari {
 namespace {
 
-using test::lossless_string, test::play_frame, test::stir;
+using std::numbers::pi, test::lossless_string, test::play_frame, test::stir;
 
-constexpr double pi = std::numbers::pi;
 const HammerDescription felt{.mass_kg = 0.004, .stiffness = 4e8, .exponent = 2.5, .full_speed_m_per_s = 3};
 
 /// Straight lines between samples at 24 kHz have the spectrum sinc^4(f/24 kHz).

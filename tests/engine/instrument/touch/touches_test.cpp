@@ -20,9 +20,7 @@
 namespace jawari {
 namespace {
 
-using test::lossless_string, test::play_frame, test::stir;
-
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi, test::lossless_string, test::play_frame, test::stir;
 
 StringModel fretted_string() {
     SceneDescription scene;
