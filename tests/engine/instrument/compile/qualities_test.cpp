@@ -123,7 +123,8 @@ TEST(InstrumentQualities, TheModesThatStayGoOnAsTheyWere) {
     const double force =
         model.strings[0].stopped[0].full_force_N[0] / model.lower[0][0].stopped[0].full_force_N[0];
     ASSERT_GT(largest(from_start), 0);
-    for (std::size_t n = 0; n < from_full.size(); ++n)
+    // What the modes that are left out gave to the outputs fades first.
+    for (std::size_t n = model.fade_shape.size(); n < from_full.size(); ++n)
         ASSERT_NEAR(from_full[n], force * from_start[n], 1e-9 * largest(from_start)) << n;
 }
 
