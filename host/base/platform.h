@@ -47,6 +47,8 @@ int create_temporary_file(std::string& path);
 int create_nameless_file();
 /// Swallows what is written, has nothing to read.
 int open_nothing();
+/// Becomes readable once a period, until it is read (8 bytes); reading it does not wait.
+int open_timer(std::chrono::milliseconds period);
 int duplicate(int file);
 int descriptor_of(std::FILE* file);
 

@@ -13,6 +13,7 @@
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/timerfd.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -99,6 +100,18 @@ int create_nameless_file() {
     if (file >= 0) remove_file(path.c_str());
     return file;
 #endif
+}
+
+int open_timer(std::chrono::milliseconds period) {
+    const int file = timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC);
+    if (file < 0) return file;
+    itimerspec times{};
+    times.it_interval.tv_sec = static_cast<time_t>(period.count() / 1000);
+    times.it_interval.tv_nsec = static_cast<long>(period.count() % 1000 * 1000000);
+    times.it_value = times.it_interval;
+    if (timerfd_settime(file, 0, &times, nullptr) == 0) return file;
+    close(file);
+    return -1;
 }
 
 int open_nothing() {

@@ -18,6 +18,22 @@ struct HostLog {
     void(CLAP_ABI* log)(const clap_host_t* host, std::int32_t severity, const char* message);
 };
 
+// ---- clap.posix-fd-support: files that the host waits for
+
+inline constexpr const char* files_id = "clap.posix-fd-support";
+inline constexpr std::uint32_t file_can_be_read = 1;
+
+/// Of the host. Threads: the main thread.
+struct HostFiles {
+    bool(CLAP_ABI* register_file)(const clap_host_t* host, int file, std::uint32_t wanted);
+    bool(CLAP_ABI* modify_file)(const clap_host_t* host, int file, std::uint32_t wanted);
+    bool(CLAP_ABI* unregister_file)(const clap_host_t* host, int file);
+};
+
+struct PluginFiles {
+    void(CLAP_ABI* on_file)(const clap_plugin_t* plugin, int file, std::uint32_t found);
+};
+
 // ---- clap.tail
 
 inline constexpr const char* tail_id = "clap.tail";

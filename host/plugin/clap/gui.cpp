@@ -13,7 +13,6 @@ namespace jawari::host::clap {
 
 namespace {
 
-constexpr std::uint32_t timer_ms = 16;
 /// Of a window of its usual size, before there is one.
 constexpr double usual_width = 1200;
 constexpr double usual_height = 768;
@@ -22,8 +21,8 @@ bool is_x11(const char* api) {
     return api != nullptr && std::strcmp(api, CLAP_WINDOW_API_X11) == 0;
 }
 
-bool is_api_supported(const clap_plugin_t* plugin, const char* api, bool /*floats*/) {
-    return is_x11(api) && instance_of(plugin).extensions.timer != nullptr && window::has_window_module();
+bool is_api_supported(const clap_plugin_t* /*plugin*/, const char* api, bool /*floats*/) {
+    return is_x11(api) && window::has_window_module();
 }
 
 bool preferred_api(const clap_plugin_t* /*plugin*/, const char** api, bool* floats) {
@@ -63,17 +62,14 @@ bool open(Instance& instance) {
         return false;
     }
     gui.window = std::move(opened.value());
-    const clap_host_timer_support_t* const timer = instance.extensions.timer;
-    if (timer != nullptr && gui.timer == CLAP_INVALID_ID)
-        timer->register_timer(instance.host, timer_ms, &gui.timer);
+    gui.clock = std::make_unique<GuiClock>(instance);
     return true;
 }
 
 void destroy_window(const clap_plugin_t* plugin) {
     Instance& instance = instance_of(plugin);
     if (instance.gui == nullptr) return;
-    if (instance.gui->timer != CLAP_INVALID_ID)
-        instance.extensions.timer->unregister_timer(instance.host, instance.gui->timer);
+    instance.gui->clock.reset();
     instance.gui->window.reset();
     instance.gui.reset();
 }
@@ -185,10 +181,9 @@ bool hide(const clap_plugin_t* plugin) {
     return true;
 }
 
-void on_timer(const clap_plugin_t* plugin, clap_id timer) {
-    Instance& instance = instance_of(plugin);
+/// Afterwards there may be no window any more.
+void idle(Instance& instance) {
     Gui* const gui = instance.gui.get();
-    if (gui == nullptr || gui->window == nullptr || timer != gui->timer) return;
     guarded([&] {
         gui->performance->tick();
         gui->window->idle();
@@ -200,7 +195,30 @@ void on_timer(const clap_plugin_t* plugin, clap_id timer) {
     if (instance.extensions.gui != nullptr) instance.extensions.gui->closed(instance.host, false);
 }
 
+const GuiClock* clock_of(const Instance& instance) {
+    return instance.gui == nullptr ? nullptr : instance.gui->clock.get();
+}
+
+void on_timer(const clap_plugin_t* plugin, clap_id timer) {
+    Instance& instance = instance_of(plugin);
+    const GuiClock* const clock = clock_of(instance);
+    if (clock != nullptr && clock->is_timer(timer)) idle(instance);
+}
+
+void on_file(const clap_plugin_t* plugin, int file, std::uint32_t /*found*/) {
+    Instance& instance = instance_of(plugin);
+    const GuiClock* const clock = clock_of(instance);
+    if (clock != nullptr && clock->is_file(file)) idle(instance);
+}
+
 }  // namespace
+
+void take_gui_call(Instance& instance) {
+    const GuiClock* const clock = clock_of(instance);
+    if (clock == nullptr || !clock->is_thread()) return;
+    idle(instance);
+    if (clock_of(instance) != nullptr) instance.gui->clock->answer();
+}
 
 const void* gui_extension() {
     static constexpr clap_plugin_gui_t extension{
@@ -212,6 +230,11 @@ const void* gui_extension() {
 
 const void* timer_extension() {
     static constexpr clap_plugin_timer_support_t extension{on_timer};
+    return &extension;
+}
+
+const void* files_extension() {
+    static constexpr PluginFiles extension{on_file};
     return &extension;
 }
 

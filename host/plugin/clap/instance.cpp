@@ -27,6 +27,7 @@ bool init(const clap_plugin_t* plugin) {
     instance.extensions.log = static_cast<const HostLog*>(ask(log_id));
     instance.extensions.gui = static_cast<const clap_host_gui_t*>(ask(CLAP_EXT_GUI));
     instance.extensions.timer = static_cast<const clap_host_timer_support_t*>(ask(CLAP_EXT_TIMER_SUPPORT));
+    instance.extensions.files = static_cast<const HostFiles*>(ask(files_id));
     const void* load = ask(preset_load_id);
     if (load == nullptr) load = ask(preset_load_draft_id);
     instance.extensions.preset_load = static_cast<const HostPresetLoad*>(load);
@@ -71,7 +72,9 @@ void reset(const clap_plugin_t* plugin) {
 }
 
 void on_main_thread(const clap_plugin_t* plugin) {
-    instance_of(plugin).core.collect();
+    Instance& instance = instance_of(plugin);
+    instance.core.collect();
+    take_gui_call(instance);
 }
 
 struct Extension {
@@ -80,7 +83,7 @@ struct Extension {
 };
 
 const void* get_extension(const clap_plugin_t* /*plugin*/, const char* id) {
-    static constexpr std::array<Extension, 11> extensions{{
+    static constexpr std::array<Extension, 12> extensions{{
         {CLAP_EXT_AUDIO_PORTS, audio_ports_extension},
         {CLAP_EXT_NOTE_PORTS, note_ports_extension},
         {CLAP_EXT_PARAMS, params_extension},
@@ -92,6 +95,7 @@ const void* get_extension(const clap_plugin_t* /*plugin*/, const char* id) {
         {preset_load_draft_id, preset_load_extension},
         {CLAP_EXT_GUI, gui_extension},
         {CLAP_EXT_TIMER_SUPPORT, timer_extension},
+        {files_id, files_extension},
     }};
     for (const Extension& each : extensions)
         if (id != nullptr && std::strcmp(each.id, id) == 0) return each.get();

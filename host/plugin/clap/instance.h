@@ -31,6 +31,7 @@ struct HostExtensions {
     const HostLog* log = nullptr;
     const clap_host_gui_t* gui = nullptr;
     const clap_host_timer_support_t* timer = nullptr;
+    const HostFiles* files = nullptr;
 };
 
 struct Instance {
@@ -57,6 +58,9 @@ const clap_plugin_t* create_instance(const clap_host_t* host);
 /// Tells the host why something was refused. Threads: the host's main thread.
 void log_error_of(const Instance& instance, const Error& error);
 
+/// The host has called back: a window that has asked for it draws.
+void take_gui_call(Instance& instance);
+
 /// The host asks for all values again: a state or preset has set them.
 void announce_values(const Instance& instance);
 
@@ -71,6 +75,7 @@ const void* render_extension();
 const void* preset_load_extension();
 const void* gui_extension();
 const void* timer_extension();
+const void* files_extension();
 
 /// What entry.cpp offers beside the plugin.
 const PresetDiscoveryFactory& discovery_factory();

@@ -25,8 +25,8 @@ void PluginPerformance::begin_edit(ParameterId parameter) {
 }
 
 void PluginPerformance::edit(ParameterId parameter, double value) {
-    core_.set_value(parameter, value);
-    if (host_.edit) host_.edit(parameter, core_.value(parameter));
+    if (!host_.value) core_.set_value(parameter, value);
+    if (host_.edit) host_.edit(parameter, host_.value ? value : core_.value(parameter));
 }
 
 void PluginPerformance::end_edit(ParameterId parameter) {
@@ -71,23 +71,36 @@ void PluginPerformance::edit_preset(const std::string& text) {
     begin({core_.state().preset_name, text, false});
 }
 
+/// A host that keeps the values would otherwise put back the old ones.
+void PluginPerformance::tell_neutral_values() {
+    for (const ParameterDeclaration& parameter : parameter_table()) {
+        begin_edit(parameter.id);
+        edit(parameter.id, parameter.neutral);
+        end_edit(parameter.id);
+    }
+}
+
+void PluginPerformance::take_compiled() {
+    Compiled compiled = compiling_.get();
+    MaybeError failure;
+    if (!compiled.state) {
+        failure = compiled.state.error();
+    } else if (core_.fits(compiled.order)) {
+        if (compiled.wish.neutral) compiled.order.state.parameters = neutral_parameters();
+        failure = core_.load_compiled(compiled.order, std::move(compiled.state.value()));
+        if (!failure && compiled.wish.neutral && host_.value) tell_neutral_values();
+        if (!failure && host_.state_changed) host_.state_changed();
+    } else if (!next_) {
+        next_ = compiled.wish;  // the host has changed rate, quality or state meanwhile
+    }
+    if (failure) lines_.push_back(failure->message);
+    if (next_) begin(*std::exchange(next_, std::nullopt));
+}
+
 void PluginPerformance::tick() {
     core_.collect();
-    if (compiling_.valid() && compiling_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-        Compiled compiled = compiling_.get();
-        MaybeError failure;
-        if (!compiled.state) {
-            failure = compiled.state.error();
-        } else if (core_.fits(compiled.order)) {
-            if (compiled.wish.neutral) compiled.order.state.parameters = neutral_parameters();
-            failure = core_.load_compiled(compiled.order, std::move(compiled.state.value()));
-            if (!failure && host_.state_changed) host_.state_changed();
-        } else if (!next_) {
-            next_ = compiled.wish;  // the host has changed rate, quality or state meanwhile
-        }
-        if (failure) lines_.push_back(failure->message);
-        if (next_) begin(*std::exchange(next_, std::nullopt));
-    }
+    if (compiling_.valid() && compiling_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+        take_compiled();
     follow_preset();
 }
 

@@ -19,6 +19,9 @@ struct EditorHost {
     std::function<void(ParameterId)> end_edit;
     std::function<void()> wake;           ///< the instance is to be processed again
     std::function<void()> state_changed;  ///< another preset: values, and the session's state
+    /// Of a host that keeps the values itself (ports of LV2), and the instance follows: what it last said.
+    /// edit() is all that sets one then.
+    std::function<double(ParameterId)> value;
 };
 
 /// Threads: the host's main thread. Presets are compiled beside it.
@@ -37,7 +40,9 @@ class PluginPerformance : public window::Performance {
     // ---- window::Performance
     StageLink& link() override { return core_.link(); }
     void wake() override;
-    [[nodiscard]] double value(ParameterId parameter) const override { return core_.value(parameter); }
+    [[nodiscard]] double value(ParameterId parameter) const override {
+        return host_.value ? host_.value(parameter) : core_.value(parameter);
+    }
     [[nodiscard]] bool can_edit(ParameterId /*parameter*/) const override { return true; }
     void begin_edit(ParameterId parameter) override;
     void edit(ParameterId parameter, double value) override;
@@ -61,6 +66,8 @@ class PluginPerformance : public window::Performance {
     };
 
     void begin(Wish wish);
+    void take_compiled();
+    void tell_neutral_values();
     void follow_preset();
 
     PluginCore& core_;

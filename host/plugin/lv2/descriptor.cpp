@@ -10,15 +10,9 @@ namespace jawari::host::lv2 {
 
 namespace {
 
-const void* feature(const LV2_Feature* const* features, const char* uri) {
-    for (; features != nullptr && *features != nullptr; ++features)
-        if (std::strcmp((*features)->URI, uri) == 0) return (*features)->data;
-    return nullptr;
-}
-
 LV2_Handle instantiate(const LV2_Descriptor* /*descriptor*/, double rate_hz, const char* /*bundle*/,
                        const LV2_Feature* const* features) {
-    const auto* const map = static_cast<const LV2_URID_Map*>(feature(features, LV2_URID__map));
+    const auto* const map = static_cast<const LV2_URID_Map*>(find_feature(features, LV2_URID__map));
     if (map == nullptr) return nullptr;
     std::unique_ptr<Instance> made;
     const bool done = guarded([&] {
@@ -27,12 +21,13 @@ LV2_Handle instantiate(const LV2_Descriptor* /*descriptor*/, double rate_hz, con
     });
     if (!done) return nullptr;
     const auto number = [map](const char* uri) { return map->map(map->handle, uri); };
-    made->urids = {number(LV2_ATOM__Chunk), number(LV2_ATOM__String), number(LV2_MIDI__MidiEvent),
-                   number(LV2_LOG__Error), number(state_uri)};
+    made->urids = {number(LV2_ATOM__Chunk),  number(LV2_ATOM__String),       number(LV2_ATOM__Sequence),
+                   number(LV2_ATOM__Object), number(LV2_MIDI__MidiEvent),    number(LV2_LOG__Error),
+                   number(state_uri),        number(LV2_STATE__StateChanged)};
     made->rate_hz = rate_hz;
     made->core.expect_rate(rate_hz);
-    made->log = static_cast<const LV2_Log_Log*>(feature(features, LV2_LOG__log));
-    made->worker = static_cast<const LV2_Worker_Schedule*>(feature(features, LV2_WORKER__schedule));
+    made->log = static_cast<const LV2_Log_Log*>(find_feature(features, LV2_LOG__log));
+    made->worker = static_cast<const LV2_Worker_Schedule*>(find_feature(features, LV2_WORKER__schedule));
     return made.release();
 }
 
@@ -46,7 +41,9 @@ void connect_port(LV2_Handle handle, std::uint32_t port, void* place) {
         ports.events = static_cast<const LV2_Atom_Sequence*>(place);
     else if (port == freewheel_port)
         ports.freewheel = static_cast<const float*>(place);
-    else if (port < port_count)
+    else if (port == notify_port)
+        ports.notices = static_cast<LV2_Atom_Sequence*>(place);
+    else if (port < notify_port)
         ports.parameters[port - first_parameter_port] = static_cast<const float*>(place);
 }
 
@@ -78,6 +75,12 @@ const void* extension_data(const char* uri) {
 }
 
 }  // namespace
+
+const void* find_feature(const LV2_Feature* const* features, const char* uri) {
+    for (; features != nullptr && *features != nullptr; ++features)
+        if (std::strcmp((*features)->URI, uri) == 0) return (*features)->data;
+    return nullptr;
+}
 
 void log_error_of(const Instance& instance, const Error& error) {
     if (instance.log != nullptr)

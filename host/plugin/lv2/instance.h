@@ -22,9 +22,12 @@ namespace jawari::host::lv2 {
 struct Urids {
     LV2_URID atom_chunk = 0;
     LV2_URID atom_string = 0;
+    LV2_URID atom_sequence = 0;
+    LV2_URID atom_object = 0;
     LV2_URID midi_event = 0;
     LV2_URID log_error = 0;
     LV2_URID state = 0;
+    LV2_URID state_changed = 0;
 };
 
 /// What is connected; null where nothing is.
@@ -34,6 +37,7 @@ struct Ports {
     const LV2_Atom_Sequence* events = nullptr;
     const float* freewheel = nullptr;
     std::array<const float*, parameter_count> parameters{};
+    LV2_Atom_Sequence* notices = nullptr;
 };
 
 struct Instance {
@@ -47,6 +51,9 @@ struct Instance {
     std::mutex control;
     /// What the freewheel port says now: work may be late.
     std::atomic<bool> wants_offline{false};
+    /// By the window: the host is to be told with the next block.
+    std::atomic<bool> state_changed{false};
+    bool has_window = false;  ///< guarded by `control`
 
     // Of the thread that runs it:
     Ports ports;
@@ -60,6 +67,9 @@ enum class Work : std::uint32_t { Collect, FollowFreewheel };
 inline Instance& instance_of(LV2_Handle handle) {
     return *static_cast<Instance*>(handle);
 }
+
+/// What the host offers under that name; null: it does not.
+const void* find_feature(const LV2_Feature* const* features, const char* uri);
 
 /// Tells the host why something was refused. Threads: not the one that runs the instance.
 void log_error_of(const Instance& instance, const Error& error);

@@ -2,6 +2,7 @@
 #include <lv2/atom/util.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "plugin/lv2/instance.h"
 
@@ -72,6 +73,25 @@ void write_silence(const Ports& ports, std::uint32_t frames) {
         if (to != nullptr) std::fill_n(to, frames, 0.0F);
 }
 
+/// Tells the host once that the window has changed the state: else it would not ask whether to save it.
+void write_notices(Instance& instance) JAWARI_REALTIME {
+    LV2_Atom_Sequence* const notices = instance.ports.notices;
+    if (notices == nullptr) return;
+    struct Notice {
+        LV2_Atom_Event event;
+        LV2_Atom_Object_Body object;
+    };
+    const std::uint32_t room = notices->atom.size;  // of the body, as the host says
+    notices->atom = {sizeof notices->body, instance.urids.atom_sequence};
+    notices->body = {0, 0};
+    if (room < sizeof notices->body + sizeof(Notice) || !instance.state_changed.exchange(false)) return;
+    Notice notice{};
+    notice.event.body = {sizeof notice.object, instance.urids.atom_object};
+    notice.object.otype = instance.urids.state_changed;
+    std::memcpy(notices + 1, &notice, sizeof notice);
+    notices->atom.size += static_cast<std::uint32_t>(sizeof notice);
+}
+
 PluginOutput output_of(const Ports& ports) {
     PluginOutput output;
     output.main = ports.main;
@@ -98,6 +118,7 @@ LV2_Worker_Status take_response(LV2_Handle /*handle*/, std::uint32_t /*size*/, c
 
 void run(LV2_Handle handle, std::uint32_t frames) {
     Instance& instance = instance_of(handle);
+    write_notices(instance);
     if (!instance.active) {  // it could not be activated: the host's log says why
         write_silence(instance.ports, frames);
         return;

@@ -24,6 +24,7 @@ constexpr std::string_view prefixes = R"(@prefix atom: <http://lv2plug.in/ns/ext
 @prefix lv2: <http://lv2plug.in/ns/lv2core#> .
 @prefix log: <http://lv2plug.in/ns/ext/log#> .
 @prefix midi: <http://lv2plug.in/ns/ext/midi#> .
+@prefix opts: <http://lv2plug.in/ns/ext/options#> .
 @prefix owl: <http://www.w3.org/2002/07/owl#> .
 @prefix pg: <http://lv2plug.in/ns/ext/port-groups#> .
 @prefix pprops: <http://lv2plug.in/ns/ext/port-props#> .
@@ -32,6 +33,7 @@ constexpr std::string_view prefixes = R"(@prefix atom: <http://lv2plug.in/ns/ext
 @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
 @prefix rsz: <http://lv2plug.in/ns/ext/resize-port#> .
 @prefix state: <http://lv2plug.in/ns/ext/state#> .
+@prefix ui: <http://lv2plug.in/ns/extensions/ui#> .
 @prefix units: <http://lv2plug.in/ns/extensions/units#> .
 @prefix urid: <http://lv2plug.in/ns/ext/urid#> .
 @prefix work: <http://lv2plug.in/ns/ext/worker#> .
@@ -41,6 +43,8 @@ constexpr std::string_view prefixes = R"(@prefix atom: <http://lv2plug.in/ns/ext
 
 /// Room for the events of a block [bytes].
 constexpr int event_bytes = 65536;
+/// Of what is told to the host.
+constexpr int notice_bytes = 1024;
 
 std::string literal(std::string_view text) {
     std::string written = "\"";
@@ -182,6 +186,10 @@ std::vector<std::string> all_ports() {
                              line("lv2:portProperty lv2:toggled, pprops:notOnGUI")));
     for (const ParameterDeclaration& parameter : parameter_table())
         ports.push_back(parameter_port(parameter));
+    ports.push_back(port(notify_port, "lv2:OutputPort, atom:AtomPort", "notify", "Notify",
+                         line("atom:bufferType atom:Sequence") +
+                             line("lv2:portProperty lv2:connectionOptional") +
+                             line("rsz:minimumSize " + std::to_string(notice_bytes))));
     return ports;
 }
 
@@ -221,10 +229,14 @@ std::string label_of(const BuiltinFile& preset) {
 
 }  // namespace
 
-std::string manifest_turtle() {
+std::string manifest_turtle(bool with_window) {
     std::string text(prefixes);
-    text += "<" + std::string(plugin_uri) +
-            ">\n    a lv2:Plugin ;\n    lv2:binary <jawari.so> ;\n    rdfs:seeAlso <jawari.ttl> .\n\n";
+    text += "<" + std::string(plugin_uri) + ">\n    a lv2:Plugin ;\n    lv2:binary <jawari.so> ;\n" +
+            (with_window ? "    ui:ui <" + std::string(window_uri) + "> ;\n" : "") +
+            "    rdfs:seeAlso <jawari.ttl> .\n\n";
+    if (with_window)
+        text += "<" + std::string(window_uri) +
+                ">\n    a ui:X11UI ;\n    lv2:binary <jawari.so> ;\n    rdfs:seeAlso <window.ttl> .\n\n";
     for (const BuiltinFile& preset : builtin_files("instruments"))
         text += preset_resource(preset) + "\n    a pset:Preset ;\n    lv2:appliesTo <" + plugin_uri +
                 "> ;\n    rdfs:label " + literal(label_of(preset)) +
@@ -248,6 +260,16 @@ std::string plugin_turtle() {
         "    lv2:extensionData state:interface, work:interface ;\n" +
         "    pg:mainOutput " + resource("main") + " ;\n    lv2:port\n" + joined(all_ports(), ",\n") + " .\n";
     return text;
+}
+
+std::string window_turtle() {
+    return std::string(prefixes) + "<" + window_uri +
+           ">\n    a ui:X11UI ;\n    lv2:binary <jawari.so> ;\n"
+           "    lv2:requiredFeature <http://lv2plug.in/ns/ext/instance-access> ;\n"
+           "    lv2:optionalFeature ui:idleInterface, ui:parent, ui:resize, ui:touch, opts:options, "
+           "urid:map,\n"
+           "        log:log ;\n"
+           "    lv2:extensionData ui:idleInterface, ui:resize, ui:showInterface .\n";
 }
 
 std::string presets_turtle() {

@@ -1,7 +1,8 @@
-// Writes the texts of the LV2 bundle: write_turtle FOLDER. Part of the build.
+// Writes the texts of the LV2 bundle: write_turtle FOLDER [--window]. Part of the build.
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 #include "plugin/lv2/turtle.h"
 
@@ -18,14 +19,16 @@ bool write(const std::string& path, const std::string& text) {
 }  // namespace
 
 int main(int count, char** arguments) {
-    if (count != 2) {
-        std::fputs("usage: write_turtle FOLDER\n", stderr);
+    const bool with_window = count == 3 && std::string_view(arguments[2]) == "--window";
+    if (count != 2 && !with_window) {
+        std::fputs("usage: write_turtle FOLDER [--window]\n", stderr);
         return 2;
     }
     const std::string folder = arguments[1];
     namespace lv2 = jawari::host::lv2;
-    const bool written = write(folder + "/manifest.ttl", lv2::manifest_turtle()) &&
+    const bool written = write(folder + "/manifest.ttl", lv2::manifest_turtle(with_window)) &&
                          write(folder + "/jawari.ttl", lv2::plugin_turtle()) &&
                          write(folder + "/presets.ttl", lv2::presets_turtle());
-    return written ? 0 : 1;
+    const bool whole = written && (!with_window || write(folder + "/window.ttl", lv2::window_turtle()));
+    return whole ? 0 : 1;
 }

@@ -71,7 +71,18 @@ std::uint32_t release_reference(void* self) {
     return left;
 }
 
-v3_result initialize(void* /*self*/, v3_funknown** /*context*/) {
+namespace {
+
+void keep_context(Instance& instance, v3_funknown** context) {
+    if (context != nullptr) v3_cpp_obj_ref(context);
+    if (instance.context != nullptr) v3_cpp_obj_unref(instance.context);
+    instance.context = context;
+}
+
+}  // namespace
+
+v3_result initialize(void* self, v3_funknown** context) {
+    keep_context(instance_of(self), context);
     return V3_OK;
 }
 
@@ -79,6 +90,7 @@ v3_result terminate(void* self) {
     Instance& instance = instance_of(self);
     if (instance.handler != nullptr) v3_cpp_obj_unref(instance.handler);
     instance.handler = nullptr;
+    keep_context(instance, nullptr);
     instance.active = false;
     instance.core.deactivate();
     return V3_OK;

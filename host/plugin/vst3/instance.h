@@ -43,6 +43,7 @@ struct Instance {
     double rate_hz = 48000;
     bool active = false;
     v3_component_handler** handler = nullptr;
+    v3_funknown** context = nullptr;  ///< the host itself, between initialize and terminate
     /// What the controls show, 0 to 1. While active the core follows the values in the blocks alone: those
     /// here come from another thread and may be older.
     std::array<double, parameter_count> travels{};

@@ -115,10 +115,12 @@ EditorHost editor_of(Instance& instance) {
     return host;
 }
 
-/// The host's timers are asked of its frame.
+/// The host's timers are asked of its frame, as the standard has it; some hosts have them themselves.
 bool begin_timer(View& view) {
-    if (view.frame == nullptr) return false;
-    v3_cpp_obj_query_interface(view.frame, v3_run_loop_iid, &view.loop);
+    if (view.frame != nullptr) v3_cpp_obj_query_interface(view.frame, v3_run_loop_iid, &view.loop);
+    v3_funknown** const context = view.instance->context;
+    if (view.loop == nullptr && context != nullptr)
+        v3_cpp_obj_query_interface(context, v3_run_loop_iid, &view.loop);
     if (view.loop == nullptr) return false;
     return v3_cpp_obj(view.loop)->register_timer(
                view.loop, reinterpret_cast<v3_timer_handler**>(&view.timer_handler), timer_ms) == V3_OK;

@@ -176,6 +176,23 @@ TEST(Platform, FoldersThatAreNoPathsDoNotCount) {
     if (old != nullptr) setenv("XDG_DATA_DIRS", before.c_str(), 1);
 }
 
+TEST(Platform, ATimerCanBeReadOnceAPeriod) {
+    const int timer = open_timer(5ms);
+    ASSERT_GE(timer, 0);
+    std::array<char, 8> periods{};
+    const auto begun = std::chrono::steady_clock::now();
+    for (int n = 0; n < 3; ++n) {
+        std::array<Input, 1> input{{{timer}}};
+        ASSERT_TRUE(wait_for_input(input, 10s));
+        EXPECT_EQ(read_some(timer, periods), 8);
+        if (n == 0) EXPECT_GE(std::chrono::steady_clock::now() - begun, 4ms);
+    }
+    EXPECT_TRUE(close_file(timer));
+    const int slow = open_timer(10min);
+    EXPECT_LT(read_some(slow, periods), 0);
+    EXPECT_TRUE(close_file(slow));
+}
+
 TEST(Platform, TheProcessorHasAName) {
     EXPECT_FALSE(processor_name().empty());
 }

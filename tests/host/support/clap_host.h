@@ -115,12 +115,15 @@ class ClapEvents {
     clap_input_events_t list_{};
 };
 
+/// What the host has for windows that move.
+enum class ClapClock { Timers, Files, Neither };
+
 /// One instance in its host. Buffers are as long as the block and no longer: sanitizers see who writes past.
 class ClapInstance {
   public:
     static constexpr const char* format = "CLAP";
 
-    ClapInstance() {
+    explicit ClapInstance(ClapClock clock = ClapClock::Timers) : clock_(clock) {
         host_ = {CLAP_VERSION_INIT,
                  this,
                  "tests",
@@ -244,6 +247,7 @@ class ClapInstance {
     std::vector<clap_event_note_t> ended;
     std::vector<std::uint16_t> edits;  ///< types of what the plugin's window did to parameters
     clap_id timer = CLAP_INVALID_ID;   ///< that runs
+    int file = -1;                     ///< that the host waits for
     std::atomic<int> callbacks{0};
     int value_rescans = 0, other_rescans = 0, dirty_marks = 0, loaded_presets = 0, preset_errors = 0;
     std::string log;
@@ -253,7 +257,7 @@ class ClapInstance {
         return *static_cast<ClapInstance*>(host->host_data);
     }
 
-    static const void* get_extension(const clap_host_t*, const char* id) {
+    static const void* get_extension(const clap_host_t* asked, const char* id) {
         static const clap_host_params_t params{
             [](const clap_host_t* host, clap_param_rescan_flags flags) {
                 (flags == CLAP_PARAM_RESCAN_VALUES ? self(host).value_rescans : self(host).other_rescans)++;
@@ -281,7 +285,21 @@ class ClapInstance {
                 self(host).timer = CLAP_INVALID_ID;
                 return ran;
             }};
-        if (std::strcmp(id, CLAP_EXT_TIMER_SUPPORT) == 0) return &timers;
+        static const host::clap::HostFiles files{[](const clap_host_t* host, int file, std::uint32_t wanted) {
+                                                     EXPECT_EQ(wanted, host::clap::file_can_be_read);
+                                                     self(host).file = file;
+                                                     return true;
+                                                 },
+                                                 [](const clap_host_t*, int, std::uint32_t) { return false; },
+                                                 [](const clap_host_t* host, int file) {
+                                                     const bool ran = self(host).file == file;
+                                                     self(host).file = -1;
+                                                     return ran;
+                                                 }};
+        const ClapClock clock = self(asked).clock_;
+        if (std::strcmp(id, CLAP_EXT_TIMER_SUPPORT) == 0)
+            return clock == ClapClock::Timers ? &timers : nullptr;
+        if (std::strcmp(id, host::clap::files_id) == 0) return clock == ClapClock::Files ? &files : nullptr;
         if (std::strcmp(id, CLAP_EXT_PARAMS) == 0) return &params;
         if (std::strcmp(id, CLAP_EXT_STATE) == 0) return &state;
         if (std::strcmp(id, host::clap::log_id) == 0) return &log;
@@ -290,6 +308,7 @@ class ClapInstance {
     }
 
     clap_host_t host_{};
+    ClapClock clock_;
     bool active_ = false;
 };
 

@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <lv2/atom/atom.h>
+#include <lv2/atom/util.h>
 #include <lv2/core/lv2.h>
 #include <lv2/log/log.h>
 #include <lv2/midi/midi.h>
@@ -148,6 +149,11 @@ class Lv2Instance {
         connect(lv2::freewheel_port, &freewheel);
         for (std::uint32_t p = 0; p < parameter_count; ++p)
             connect(lv2::first_parameter_port + p, &events.values[p]);
+        notices_.assign(64, 0);
+        const LV2_Atom room{static_cast<std::uint32_t>(8 * notices_.size() - sizeof(LV2_Atom)),
+                            lv2_urid(LV2_ATOM__Chunk)};
+        std::memcpy(notices_.data(), &room, sizeof room);
+        connect(lv2::notify_port, notices_.data());
     }
     bool call() {
         lv2_plugin().run(handle, frames_);
@@ -159,6 +165,13 @@ class Lv2Instance {
         right.insert(right.end(), channels_[1].begin(), channels_[1].end());
         for (std::size_t s = 0; s < strings_wanted; ++s)
             strings[s].insert(strings[s].end(), channels_[2 + s].begin(), channels_[2 + s].end());
+        const auto* const notices = reinterpret_cast<const LV2_Atom_Sequence*>(notices_.data());
+        ASSERT_EQ(notices->atom.type, lv2_urid(LV2_ATOM__Sequence));
+        LV2_ATOM_SEQUENCE_FOREACH(notices, event) {
+            ASSERT_EQ(event->body.type, lv2_urid(LV2_ATOM__Object));
+            const auto* const object = reinterpret_cast<const LV2_Atom_Object*>(&event->body);
+            state_changes += object->body.otype == lv2_urid(LV2_STATE__StateChanged) ? 1 : 0;
+        }
         for (const Work& work : works_) worked += do_work(work) ? 1 : 0;
         works_.clear();
     }
@@ -195,13 +208,13 @@ class Lv2Instance {
             LV2_URID type;
         } property{std::string(text), lv2_urid(type)};
         const auto retrieve = [](LV2_State_Handle from, std::uint32_t key, std::size_t* size,
-                                 std::uint32_t* type, std::uint32_t* flags) -> const void* {
+                                 std::uint32_t* kind, std::uint32_t* flags) -> const void* {
             if (key != lv2_urid(host::lv2::state_uri)) return nullptr;
-            const auto& property = *static_cast<const Property*>(from);
-            *size = property.text.size();
-            *type = property.type;
+            const auto& kept = *static_cast<const Property*>(from);
+            *size = kept.text.size();
+            *kind = kept.type;
             *flags = LV2_STATE_IS_POD | LV2_STATE_IS_PORTABLE;
-            return property.text.data();
+            return kept.text.data();
         };
         return state().restore(handle, retrieve, &property, 0, nullptr);
     }
@@ -213,7 +226,8 @@ class Lv2Instance {
     std::vector<float> left, right;
     std::array<std::vector<float>, 16> strings;
     std::string log;
-    int worked = 0;  ///< pieces of work that the host's worker has done
+    int state_changes = 0;  ///< that the plugin has told
+    int worked = 0;         ///< pieces of work that the host's worker has done
 
   private:
     struct Work {
@@ -274,7 +288,7 @@ class Lv2Instance {
     std::vector<Work> works_;
     std::uint32_t frames_ = 0;
     std::vector<std::vector<float>> channels_;
-    std::vector<std::uint64_t> sequence_;
+    std::vector<std::uint64_t> sequence_, notices_;
 };
 
 }  // namespace jawari::test

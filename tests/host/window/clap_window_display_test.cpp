@@ -8,6 +8,7 @@
 #undef Status
 #undef Success
 #include <gtest/gtest.h>
+#include <poll.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -23,7 +24,7 @@ namespace {
 /// A host's window with the plugin's in it.
 class HostWindow {
   public:
-    HostWindow() {
+    explicit HostWindow(ClapClock clock = ClapClock::Timers) : instance(clock) {
         EXPECT_TRUE(instance.load(small_state()));
         EXPECT_TRUE(instance.activate());
         gui = &instance.get<clap_plugin_gui_t>(CLAP_EXT_GUI);
@@ -37,13 +38,13 @@ class HostWindow {
     HostWindow(const HostWindow&) = delete;
     HostWindow& operator=(const HostWindow&) = delete;
 
-    void open() {
+    void open(double scale = 1) {
         ASSERT_TRUE(gui->create(instance.plugin, CLAP_WINDOW_API_X11, false));
-        ASSERT_TRUE(gui->set_scale(instance.plugin, 1));
+        ASSERT_TRUE(gui->set_scale(instance.plugin, scale));
         std::uint32_t width = 0;
         std::uint32_t height = 0;
         ASSERT_TRUE(gui->get_size(instance.plugin, &width, &height));
-        EXPECT_EQ(width, 1200U);
+        EXPECT_EQ(width, static_cast<std::uint32_t>(1200 * scale));
         clap_window_t parent{};
         parent.api = CLAP_WINDOW_API_X11;
         parent.x11 = window;
@@ -53,10 +54,9 @@ class HostWindow {
     }
 
     void run(double seconds) {
-        const auto& timer = instance.get<clap_plugin_timer_support_t>(CLAP_EXT_TIMER_SUPPORT);
         for (int n = 0; n < static_cast<int>(seconds * 100); ++n) {
             instance.process(480);
-            timer.on_timer(instance.plugin, instance.timer);
+            idle();
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         }
     }
@@ -86,6 +86,18 @@ class HostWindow {
     ::Window window = 0;
 
   private:
+    /// As the host's main loop does it.
+    void idle() {
+        if (instance.timer != CLAP_INVALID_ID)
+            instance.get<clap_plugin_timer_support_t>(CLAP_EXT_TIMER_SUPPORT)
+                .on_timer(instance.plugin, instance.timer);
+        pollfd waiting{instance.file, POLLIN, 0};
+        if (instance.file >= 0 && poll(&waiting, 1, 0) == 1)
+            instance.get<host::clap::PluginFiles>(host::clap::files_id)
+                .on_file(instance.plugin, instance.file, host::clap::file_can_be_read);
+        if (instance.callbacks.exchange(0) > 0) instance.plugin->on_main_thread(instance.plugin);
+    }
+
     Display* display_ = nullptr;
 };
 
@@ -101,6 +113,48 @@ TEST(ClapWindowDisplay, OpensInTheHostsWindowTenTimesAndChangesNoState) {
     EXPECT_EQ(host.instance.save(), before);
     EXPECT_EQ(host.instance.dirty_marks, 0);
     EXPECT_TRUE(host.instance.edits.empty());
+}
+
+/// A drag is seen and told however the host has the window drawn.
+TEST(ClapWindowDisplay, WithoutTimersItLivesByAFileOrByCallsOfTheHost) {
+    for (const ClapClock clock : {ClapClock::Files, ClapClock::Neither}) {
+        HostWindow host(clock);
+        for (int n = 0; n < 3; ++n) {
+            ASSERT_NO_FATAL_FAILURE(host.open());
+            EXPECT_EQ(host.instance.timer, CLAP_INVALID_ID);
+            EXPECT_EQ(host.instance.file >= 0, clock == ClapClock::Files);
+            host.instance.edits.clear();
+            const host::window::Box box =
+                host::window::lay_out(1200, 768).controls[static_cast<std::size_t>(ParameterId::BodyMix)];
+            host.input(host.at(box.middle_x(), box.y + 20) + "mousedown 1");
+            host.input(host.at(box.x + 0.8F * box.width, box.y + 20) + "mouseup 1");
+            EXPECT_GE(host.instance.edits.size(), 3U) << static_cast<int>(clock);
+            host.gui->destroy(host.instance.plugin);
+            EXPECT_EQ(host.instance.file, -1);
+        }
+        // What was asked for before is no longer answered.
+        host.instance.plugin->on_main_thread(host.instance.plugin);
+        host.instance.callbacks = 0;
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        EXPECT_EQ(host.instance.callbacks, 0);
+    }
+}
+
+TEST(ClapWindowDisplay, AtTwiceTheScaleItIsTwiceAsLarge) {
+    HostWindow host;
+    ASSERT_NO_FATAL_FAILURE(host.open(2));
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    ASSERT_TRUE(host.gui->get_size(host.instance.plugin, &width, &height));
+    EXPECT_EQ(width, 2400U);
+    EXPECT_EQ(height, 1536U);
+    // Its controls are where the layout has them, times two.
+    const host::window::Box box =
+        host::window::lay_out(1200, 768).controls[static_cast<std::size_t>(ParameterId::BodyMix)];
+    host.input(host.at(2 * box.middle_x(), 2 * (box.y + 20)) + "mousedown 1");
+    host.input(host.at(2 * (box.x + 0.8F * box.width), 2 * (box.y + 20)) + "mouseup 1");
+    EXPECT_GT(host.instance.value(static_cast<clap_id>(ParameterId::BodyMix)), 1.3);
+    host.gui->destroy(host.instance.plugin);
 }
 
 TEST(ClapWindowDisplay, TheSpaceBarGoesOnToTheHost) {

@@ -30,21 +30,43 @@ class Vst3Window {
         XSync(display_, 0);
         frame_ = {&frame_table(), this};
         loop_ = {&loop_table(), this};
+        context_ = {&context_table(), this};
     }
     ~Vst3Window() { XCloseDisplay(display_); }
     Vst3Window(const Vst3Window&) = delete;
     Vst3Window& operator=(const Vst3Window&) = delete;
 
-    void open() {
+    void open(float scale = 1) {
         view = v3_cpp_obj(instance.controller)->create_view(instance.controller, "editor");
         ASSERT_NE(view, nullptr);
         EXPECT_EQ(v3_cpp_obj(view)->is_platform_type_supported(view, V3_VIEW_PLATFORM_TYPE_HWND), V3_FALSE);
+        v3_plugin_view_content_scale** content = nullptr;
+        ASSERT_EQ(v3_cpp_obj_query_interface(view, v3_plugin_view_content_scale_iid, &content), V3_OK);
+        EXPECT_EQ(v3_cpp_obj(content)->set_content_scale_factor(content, scale), V3_OK);
+        v3_cpp_obj_unref(content);
         v3_cpp_obj(view)->set_frame(view, frame_.as<v3_plugin_frame>());
         ASSERT_EQ(
             v3_cpp_obj(view)->attached(view, reinterpret_cast<void*>(parent_), V3_VIEW_PLATFORM_TYPE_X11),
             V3_OK);
         EXPECT_NE(timer_, nullptr);
         run(0.5);
+    }
+    /// Where the host has its timers: in the frame, in itself, nowhere.
+    enum class Loop { OfTheFrame, OfTheHost, None };
+    void offer(Loop loop) {
+        offered_ = loop;
+        v3_cpp_obj_initialize(instance.component, context_.as<v3_funknown>());
+    }
+    /// No timers, no window.
+    void fail_to_open() {
+        view = v3_cpp_obj(instance.controller)->create_view(instance.controller, "editor");
+        ASSERT_NE(view, nullptr);
+        v3_cpp_obj(view)->set_frame(view, frame_.as<v3_plugin_frame>());
+        EXPECT_NE(
+            v3_cpp_obj(view)->attached(view, reinterpret_cast<void*>(parent_), V3_VIEW_PLATFORM_TYPE_X11),
+            V3_OK);
+        EXPECT_EQ(timer_, nullptr);
+        EXPECT_EQ(v3_cpp_obj_unref(view), 0U);
     }
     void close() {
         EXPECT_EQ(v3_cpp_obj(view)->removed(view), V3_OK);
@@ -82,12 +104,23 @@ class Vst3Window {
     static const FrameTable& frame_table() {
         static constexpr FrameTable table{
             {[](void* self, const v3_tuid iid, void** object) -> v3_result {
-                 *object = v3_tuid_match(iid, v3_run_loop_iid) ? &owner_of<Vst3Window>(self).loop_ : nullptr;
-                 return *object == nullptr ? V3_NO_INTERFACE : V3_OK;
+                 return owner_of<Vst3Window>(self).give_loop(Loop::OfTheFrame, iid, object);
              },
              HostObject<v3_funknown>::count, HostObject<v3_funknown>::count},
             {[](void*, v3_plugin_view**, v3_view_rect*) -> v3_result { return V3_OK; }}};
         return table;
+    }
+    static const v3_funknown& context_table() {
+        static constexpr v3_funknown table{[](void* self, const v3_tuid iid, void** object) -> v3_result {
+                                               return owner_of<Vst3Window>(self).give_loop(Loop::OfTheHost,
+                                                                                           iid, object);
+                                           },
+                                           HostObject<v3_funknown>::count, HostObject<v3_funknown>::count};
+        return table;
+    }
+    v3_result give_loop(Loop place, const v3_tuid iid, void** object) {
+        *object = offered_ == place && v3_tuid_match(iid, v3_run_loop_iid) ? &loop_ : nullptr;
+        return *object == nullptr ? V3_NO_INTERFACE : V3_OK;
     }
     static const LoopTable& loop_table() {
         static constexpr LoopTable table{
@@ -109,6 +142,8 @@ class Vst3Window {
     ::Window parent_ = 0;
     HostObject<FrameTable> frame_;
     HostObject<LoopTable> loop_;
+    HostObject<v3_funknown> context_;
+    Loop offered_ = Loop::OfTheFrame;
     v3_timer_handler** timer_ = nullptr;
 };
 
@@ -124,6 +159,30 @@ TEST(Vst3WindowDisplay, OpensInTheHostsWindowAndChangesNoState) {
     }
     EXPECT_EQ(host.instance.save(), before);
     EXPECT_TRUE(host.instance.edits.empty());
+}
+
+TEST(Vst3WindowDisplay, TimersAreTheFramesOrTheHostsAndWithoutThemThereIsNoWindow) {
+    Vst3Window host;
+    host.offer(Vst3Window::Loop::OfTheHost);
+    ASSERT_NO_FATAL_FAILURE(host.open());
+    host.close();
+    const std::string before = host.instance.save();
+    host.offer(Vst3Window::Loop::None);
+    ASSERT_NO_FATAL_FAILURE(host.fail_to_open());
+    host.instance.events.midi(0, 0x90, 40, 100);
+    host.instance.process(4800);
+    EXPECT_GT(*std::max_element(host.instance.left.begin(), host.instance.left.end()), 0);
+    EXPECT_EQ(host.instance.save(), before);
+}
+
+TEST(Vst3WindowDisplay, AtTwiceTheScaleItIsTwiceAsLarge) {
+    Vst3Window host;
+    ASSERT_NO_FATAL_FAILURE(host.open(2));
+    v3_view_rect rect{};
+    EXPECT_EQ(v3_cpp_obj(host.view)->get_size(host.view, &rect), V3_OK);
+    EXPECT_EQ(rect.right, 2400);
+    EXPECT_EQ(rect.bottom, 1536);
+    host.close();
 }
 
 TEST(Vst3WindowDisplay, ADragIsAnEditOfTheHosts) {
