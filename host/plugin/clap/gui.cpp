@@ -170,6 +170,7 @@ void suggest_title(const clap_plugin_t* plugin, const char* title) {
 bool show(const clap_plugin_t* plugin) {
     Gui* const gui = instance_of(plugin).gui.get();
     if (gui == nullptr || gui->window == nullptr) return false;
+    gui->told_closed = false;
     gui->window->show();
     return true;
 }

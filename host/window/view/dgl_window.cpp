@@ -22,22 +22,6 @@ unsigned pixels(float units, double scale) {
     return static_cast<unsigned>(std::lround(static_cast<double>(units) * scale));
 }
 
-/// Notes when the user closes it.
-class ClosableWindow : public DGL_NAMESPACE::Window {
-  public:
-    using DGL_NAMESPACE::Window::Window;
-    [[nodiscard]] bool closed_by_user() const { return closed_; }
-
-  protected:
-    bool onClose() override {
-        closed_ = true;
-        return true;
-    }
-
-  private:
-    bool closed_ = false;
-};
-
 class DglWindow : public Window {
   public:
     DglWindow(const WindowRequest& request, Performance& performance, std::unique_ptr<X11Display> display)
@@ -49,8 +33,8 @@ class DglWindow : public Window {
         WindowSize size = request.size;
         if (size == WindowSize{}) size = {pixels(usual_width, scale_), pixels(usual_height, scale_)};
         // 0 as the scale: DPF asks the system.
-        window_ = std::make_unique<ClosableWindow>(app_, request.parent, size.width, size.height,
-                                                   request.scale, true);
+        window_ = std::make_unique<DGL_NAMESPACE::Window>(app_, request.parent, size.width, size.height,
+                                                          request.scale, true);
         if (!(request.scale > 0)) {
             scale_ = window_->getScaleFactor();
             if (request.size == WindowSize{})
@@ -102,7 +86,8 @@ class DglWindow : public Window {
         if (parent_ == 0) window_->hide();
     }
 
-    [[nodiscard]] bool is_closed() const override { return window_->closed_by_user(); }
+    /// DPF asks nobody in a program that is not its own: it hides the window.
+    [[nodiscard]] bool is_closed() const override { return parent_ == 0 && shown_ && !window_->isVisible(); }
 
     [[nodiscard]] WindowSize size() const override { return {window_->getWidth(), window_->getHeight()}; }
     void set_size(const WindowSize& size) override { window_->setSize(size.width, size.height); }
@@ -124,7 +109,7 @@ class DglWindow : public Window {
     std::unique_ptr<X11Display> display_;
     DGL_NAMESPACE::Application app_;
     MainView view_;
-    std::unique_ptr<ClosableWindow> window_;
+    std::unique_ptr<DGL_NAMESPACE::Window> window_;
     std::unique_ptr<Surface> surface_;
     double scale_;
     std::uintptr_t parent_ = 0;

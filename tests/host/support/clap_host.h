@@ -3,6 +3,7 @@
 
 #include <clap/entry.h>
 #include <clap/ext/audio-ports.h>
+#include <clap/ext/gui.h>
 #include <clap/ext/latency.h>
 #include <clap/ext/note-ports.h>
 #include <clap/ext/params.h>
@@ -249,6 +250,7 @@ class ClapInstance {
     clap_id timer = CLAP_INVALID_ID;   ///< that runs
     int file = -1;                     ///< that the host waits for
     std::atomic<int> callbacks{0};
+    int closed_windows = 0;  ///< by the user
     int value_rescans = 0, other_rescans = 0, dirty_marks = 0, loaded_presets = 0, preset_errors = 0;
     std::string log;
 
@@ -296,6 +298,11 @@ class ClapInstance {
                                                      self(host).file = -1;
                                                      return ran;
                                                  }};
+        static const clap_host_gui_t gui{
+            [](const clap_host_t*) {}, [](const clap_host_t*, std::uint32_t, std::uint32_t) { return true; },
+            [](const clap_host_t*) { return true; }, [](const clap_host_t*) { return true; },
+            [](const clap_host_t* host, bool destroyed) { self(host).closed_windows += destroyed ? 0 : 1; }};
+        if (std::strcmp(id, CLAP_EXT_GUI) == 0) return &gui;
         const ClapClock clock = self(asked).clock_;
         if (std::strcmp(id, CLAP_EXT_TIMER_SUPPORT) == 0)
             return clock == ClapClock::Timers ? &timers : nullptr;

@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "support/clap_host.h"
+#include "support/x11_close.h"
 #include "window/model/layout.h"
 
 namespace jawari::test {
@@ -32,6 +33,8 @@ class HostWindow {
         window = XCreateSimpleWindow(display_, DefaultRootWindow(display_), 0, 0, 1200, 768, 0, 0, 0);
         XSelectInput(display_, window, KeyPressMask | KeyReleaseMask);
         XMapWindow(display_, window);
+        // Where the pointer is, whatever a window that is gone has left.
+        XSetInputFocus(display_, PointerRoot, RevertToPointerRoot, CurrentTime);
         XSync(display_, 0);
     }
     ~HostWindow() { XCloseDisplay(display_); }
@@ -61,6 +64,12 @@ class HostWindow {
         }
     }
 
+    void resize(unsigned width, unsigned height) {
+        XResizeWindow(display_, window, width, height);
+        XSync(display_, 0);
+        ASSERT_TRUE(gui->set_size(instance.plugin, width, height));
+        run(0.3);
+    }
     void input(const std::string& words) {
         ASSERT_EQ(std::system(("xdotool " + words).c_str()), 0);  // NOLINT(concurrency-mt-unsafe)
         run(0.3);
@@ -148,13 +157,38 @@ TEST(ClapWindowDisplay, AtTwiceTheScaleItIsTwiceAsLarge) {
     ASSERT_TRUE(host.gui->get_size(host.instance.plugin, &width, &height));
     EXPECT_EQ(width, 2400U);
     EXPECT_EQ(height, 1536U);
-    // Its controls are where the layout has them, times two.
+    // Its controls are where the layout has them, times two; in a size that the screen has room for.
+    host.resize(2000, 1400);
     const host::window::Box box =
-        host::window::lay_out(1200, 768).controls[static_cast<std::size_t>(ParameterId::BodyMix)];
+        host::window::lay_out(1000, 700).controls[static_cast<std::size_t>(ParameterId::BodyMix)];
     host.input(host.at(2 * box.middle_x(), 2 * (box.y + 20)) + "mousedown 1");
     host.input(host.at(2 * (box.x + 0.8F * box.width), 2 * (box.y + 20)) + "mouseup 1");
     EXPECT_GT(host.instance.value(static_cast<clap_id>(ParameterId::BodyMix)), 1.3);
     host.gui->destroy(host.instance.plugin);
+}
+
+TEST(ClapWindowDisplay, AFloatingOneThatTheUserClosesIsToldToTheHostEachTime) {
+    ClapInstance instance;
+    ASSERT_TRUE(instance.load(small_state()));
+    const auto& gui = instance.get<clap_plugin_gui_t>(CLAP_EXT_GUI);
+    const auto& timer = instance.get<clap_plugin_timer_support_t>(CLAP_EXT_TIMER_SUPPORT);
+    ASSERT_TRUE(gui.create(instance.plugin, CLAP_WINDOW_API_X11, true));
+    gui.suggest_title(instance.plugin, "Floating strings");
+    for (int told = 1; told <= 2; ++told) {
+        ASSERT_TRUE(gui.show(instance.plugin));
+        const auto run = [&] {
+            for (int n = 0; n < 50; ++n) {
+                timer.on_timer(instance.plugin, instance.timer);
+                std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            }
+        };
+        run();
+        EXPECT_EQ(instance.closed_windows, told - 1);
+        close_by_user("Floating strings");
+        run();
+        EXPECT_EQ(instance.closed_windows, told);
+    }
+    gui.destroy(instance.plugin);
 }
 
 TEST(ClapWindowDisplay, TheSpaceBarGoesOnToTheHost) {

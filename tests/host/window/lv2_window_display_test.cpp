@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "support/lv2_ui.h"
+#include "support/x11_close.h"
 #include "window/model/layout.h"
 
 namespace jawari::test {
@@ -31,6 +32,8 @@ class Lv2Window {
         window = XCreateSimpleWindow(display_, DefaultRootWindow(display_), 0, 0, 1200, 768, 0, 0, 0);
         XSelectInput(display_, window, KeyPressMask | KeyReleaseMask);
         XMapWindow(display_, window);
+        // Where the pointer is, whatever a window that is gone has left.
+        XSetInputFocus(display_, PointerRoot, RevertToPointerRoot, CurrentTime);
         XSync(display_, 0);
     }
     ~Lv2Window() {
@@ -220,16 +223,7 @@ TEST(Lv2WindowDisplay, WithoutAParentItIsAWindowOfItsOwnUntilTheUserClosesIt) {
     EXPECT_TRUE(host.run(0.1));
     EXPECT_EQ(show.show(host.ui->handle), 0);
     EXPECT_TRUE(host.run(0.3));
-    // As a window manager does it.
-    XEvent close{};
-    Display* const display = XOpenDisplay(nullptr);
-    close.xclient.type = ClientMessage;
-    close.xclient.window = reinterpret_cast<::Window>(host.ui->widget);
-    close.xclient.message_type = XInternAtom(display, "WM_PROTOCOLS", 0);
-    close.xclient.format = 32;
-    close.xclient.data.l[0] = static_cast<long>(XInternAtom(display, "WM_DELETE_WINDOW", 0));
-    XSendEvent(display, close.xclient.window, 0, NoEventMask, &close);
-    XCloseDisplay(display);
+    close_by_user(reinterpret_cast<::Window>(host.ui->widget));
     EXPECT_FALSE(host.run(1));
 }
 
