@@ -163,7 +163,8 @@ v3_result set_value(void* self, v3_param_id id, double value) {
     if (const auto parameter = table_parameter(id)) {
         instance.travels[id] = value;
         if (!instance.active)
-            instance.core.set_value(*parameter, parameter_value(declaration_of(*parameter), value));
+            instance.core.set_value(
+                *parameter, value_meant(declaration_of(*parameter), value, instance.core.value(*parameter)));
         return V3_OK;
     }
     if (id == program_parameter) return choose_program(instance, program_at(value));

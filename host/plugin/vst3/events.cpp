@@ -15,7 +15,8 @@ constexpr double cents_per_semitone = 100;
 void take_value(PluginCore& core, const TimedChange& change) {
     if (!std::isfinite(change.value)) return;
     if (const auto parameter = table_parameter(change.which))
-        core.set_parameter(*parameter, parameter_value(declaration_of(*parameter), change.value),
+        core.set_parameter(*parameter,
+                           value_meant(declaration_of(*parameter), change.value, core.value(*parameter)),
                            change.frame);
     else if (const auto message = controller_message(change.which, change.value))
         core.take(*message, change.frame);

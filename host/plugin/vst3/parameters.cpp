@@ -13,6 +13,13 @@ std::optional<ParameterId> table_parameter(v3_param_id id) {
     return static_cast<ParameterId>(id);
 }
 
+double value_meant(const ParameterDeclaration& parameter, double travel, double now) noexcept {
+    for (const double value : {now, parameter.neutral})
+        if (static_cast<float>(parameter_travel(parameter, value)) == static_cast<float>(travel))
+            return value;
+    return parameter_value(parameter, travel);
+}
+
 v3_param_id parameter_at(int index) {
     const int of_table = static_cast<int>(parameter_count);
     if (index < of_table) return static_cast<v3_param_id>(index);

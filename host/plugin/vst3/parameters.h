@@ -28,6 +28,11 @@ inline constexpr int parameter_total =
 /// The parameter of the table that an id means. Threads: any; realtime-safe.
 std::optional<ParameterId> table_parameter(v3_param_id id);
 
+/// What a host means by `travel`, 0 to 1, while `now` is in force, in the parameter's unit. Hosts keep
+/// travels as floats at times and repeat what they were told: that leaves the value, or the neutral one, as
+/// it is. Threads: any; realtime-safe.
+double value_meant(const ParameterDeclaration& parameter, double travel, double now) noexcept;
+
 /// The id of the `index`-th parameter, 0 to parameter_total - 1. Threads: any.
 v3_param_id parameter_at(int index);
 

@@ -181,5 +181,30 @@ TEST(Vst3Parameters, GroupsAreUnitsAndPresetsAreAList) {
     v3_cpp_obj_unref(units);
 }
 
+/// As Ardour does when it opens a session: what the controls say, as doubles or rounded to floats, while
+/// inactive and in a block.
+TEST(Vst3Parameters, WhatAHostRepeatsLeavesAStateAsItIs) {
+    auto state = nlohmann::ordered_json::parse(small_state());
+    state["parameters"] = {
+        {"palm_mute", 0.1}, {"pluck_position", 0.7}, {"release_time", 1.3}, {"vibrato_rate", 5.0}};
+    for (const bool as_float : {false, true}) {
+        Vst3Instance one;
+        ASSERT_TRUE(one.load(state.dump()));
+        const std::string before = one.save();
+        const auto told = [&](v3_param_id id) {
+            const double travel = v3_cpp_obj(one.controller)->get_parameter_normalised(one.controller, id);
+            return as_float ? static_cast<double>(static_cast<float>(travel)) : travel;
+        };
+        for (v3_param_id id = 0; id < parameter_count; ++id)
+            EXPECT_EQ(v3_cpp_obj(one.controller)->set_parameter_normalised(one.controller, id, told(id)),
+                      V3_OK);
+        EXPECT_EQ(one.save(), before);
+        ASSERT_TRUE(one.activate());
+        for (v3_param_id id = 0; id < parameter_count; ++id) one.events.point(0, id, told(id));
+        one.process(64);
+        EXPECT_EQ(one.save(), before);
+    }
+}
+
 }  // namespace
 }  // namespace jawari::host
