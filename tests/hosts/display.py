@@ -21,6 +21,13 @@ def check_tools():
         skip("no display")
 
 
+def wait_until(happened, what, patience_s=20):
+    end = time.monotonic() + patience_s
+    while not happened():
+        assert time.monotonic() < end, f"waited {patience_s} s for {what}"
+        time.sleep(0.2)
+
+
 class Display:
     """With a window manager, as hosts expect one."""
 
@@ -99,5 +106,5 @@ class Display:
 # Of the plugin's window in its usual size, 1200 x 768, in pixels.
 SIZE = (1200, 768)
 BODY_MIX, BODY_MIX_MORE = (123, 743), (190, 743)
-STRINGS = (600, 300)
+VOLUME, VOLUME_LESS = (215, 623), (120, 623)
 EMPTY = (600, 12)  # of the head: a click there does nothing

@@ -83,7 +83,9 @@ class DglWindow : public Window {
     void hide() override {
         shown_ = false;
         performance_.link().set_open(false);
-        if (parent_ == 0) window_->hide();
+        if (parent_ != 0) return;
+        window_->hide();
+        app_.idle();  // or X11 hears of it with the next idle(), which may never come
     }
 
     /// DPF asks nobody in a program that is not its own: it hides the window.

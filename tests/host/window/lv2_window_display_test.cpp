@@ -84,6 +84,11 @@ class Lv2Window {
         XGetWindowAttributes(display_, reinterpret_cast<::Window>(ui->widget), &attributes);
         return attributes.width;
     }
+    [[nodiscard]] bool is_child_shown() const {
+        XWindowAttributes attributes{};
+        XGetWindowAttributes(display_, reinterpret_cast<::Window>(ui->widget), &attributes);
+        return attributes.map_state != IsUnmapped;
+    }
     static host::window::Box control(ParameterId parameter) {
         return host::window::lay_out(1200, 768).controls[static_cast<std::size_t>(parameter)];
     }
@@ -225,6 +230,9 @@ TEST(Lv2WindowDisplay, WithoutAParentItIsAWindowOfItsOwnUntilTheUserClosesIt) {
     EXPECT_TRUE(host.run(0.3));
     close_by_user(reinterpret_cast<::Window>(host.ui->widget));
     EXPECT_FALSE(host.run(1));
+    // jalv asks for nothing more then.
+    EXPECT_EQ(show.hide(host.ui->handle), 0);
+    EXPECT_FALSE(host.is_child_shown());
 }
 
 }  // namespace
