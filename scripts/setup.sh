@@ -104,7 +104,9 @@ coverage     clang                   counts what runs
 coverage     libclang-rt-CLANG-dev|libclang-common-CLANG-dev its run time
 coverage     llvm                    sums it up
 hosts        ardour                  hosts.ardour, hosts.ardour_windows
-hosts?       openbox                 window manager of the hosts: hosts.ardour_windows, hosts.jalv_windows are skipped
+hosts?       qtractor                hosts.qtractor_windows is skipped
+hosts?       libqt5x11extras5        jalv.qt5: left out of hosts.jalv_windows
+hosts?       openbox                 window manager of the hosts: hosts.*_windows are skipped
 realtime     clang-22                -Wfunction-effects, -fsanitize=realtime
 realtime     libclang-rt-22-dev      the sanitizer's run time
 realtime     llvm-22                 llvm-symbolizer: lines instead of addresses
