@@ -76,7 +76,7 @@ const void* extension_data(const char* uri) {
 
 }  // namespace
 
-const void* find_feature(const LV2_Feature* const* features, const char* uri) {
+void* find_feature(const LV2_Feature* const* features, const char* uri) {
     for (; features != nullptr && *features != nullptr; ++features)
         if (std::strcmp((*features)->URI, uri) == 0) return (*features)->data;
     return nullptr;

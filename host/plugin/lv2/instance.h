@@ -69,7 +69,7 @@ inline Instance& instance_of(LV2_Handle handle) {
 }
 
 /// What the host offers under that name; null: it does not.
-const void* find_feature(const LV2_Feature* const* features, const char* uri);
+void* find_feature(const LV2_Feature* const* features, const char* uri);
 
 /// Tells the host why something was refused. Threads: not the one that runs the instance.
 void log_error_of(const Instance& instance, const Error& error);

@@ -151,8 +151,7 @@ std::unique_ptr<Ui> open_ui(Instance& instance, const LV2_Feature* const* featur
 LV2UI_Handle begin_ui(const LV2UI_Descriptor* /*descriptor*/, const char* plugin, const char* /*bundle*/,
                       LV2UI_Write_Function write, LV2UI_Controller controller, LV2UI_Widget* widget,
                       const LV2_Feature* const* features) {
-    auto* const instance =
-        static_cast<Instance*>(const_cast<void*>(find_feature(features, LV2_INSTANCE_ACCESS_URI)));
+    auto* const instance = static_cast<Instance*>(find_feature(features, LV2_INSTANCE_ACCESS_URI));
     if (plugin == nullptr || std::strcmp(plugin, plugin_uri) != 0 || write == nullptr) return nullptr;
     Ui* made = nullptr;
     bool claimed = false;
@@ -173,7 +172,8 @@ LV2UI_Handle begin_ui(const LV2UI_Descriptor* /*descriptor*/, const char* plugin
     }
     made->write = write;
     made->controller = controller;
-    if (widget != nullptr) *widget = reinterpret_cast<LV2UI_Widget>(made->window->native());
+    if (widget != nullptr)  // NOLINTNEXTLINE(performance-no-int-to-ptr): X11 has numbers, LV2 pointers
+        *widget = reinterpret_cast<LV2UI_Widget>(made->window->native());
     const window::WindowSize size = made->window->size();
     if (const auto* const resize = static_cast<const LV2UI_Resize*>(find_feature(features, LV2_UI__resize)))
         resize->ui_resize(resize->handle, static_cast<int>(size.width), static_cast<int>(size.height));

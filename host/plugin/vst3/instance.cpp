@@ -1,5 +1,7 @@
 #include "plugin/vst3/instance.h"
 
+#include <travesty/audio_processor.h>
+#include <travesty/component.h>
 #include <travesty/unit.h>
 
 #include <memory>
