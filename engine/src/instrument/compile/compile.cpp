@@ -15,6 +15,7 @@
 #include "instrument/touch/touches.h"
 #include "instrument/voice/bend.h"
 #include "instrument/voice/body.h"
+#include "instrument/voice/bridge_model.h"
 #include "instrument/voice/pickups.h"
 #include "jawari/instrument/compile.h"
 #include "jawari/instrument/model.h"
@@ -166,6 +167,9 @@ Result<StoppedStringModel> compile_stopped(const InstrumentDescription& instrume
     stopped.wave_impedance_kg_per_s = std::sqrt(modes.tension_N * description.linear_density_kg_per_m);
     set_retuning_tables(stopped);
     set_output_rows(stopped, instrument, model.output_rate_hz);
+    if (instrument.bridge)
+        stopped.bridge_stiffness_N_per_m =
+            end_stiffness(stopped.string, stopped.bridge_row.data(), modes.tension_N, 1);
     calibrate_exciters(stopped, model, model.strings[index]);
     find_action_contacts(stopped, instrument, index, fret);
     return stopped;
@@ -178,6 +182,7 @@ InstrumentStringModel string_without_stops(const InstrumentDescription& instrume
     InstrumentStringModel string;
     string.name = described.name;
     string.level = instrument.gain * described.level;
+    string.own_level = described.level;
     string.pan = described.pan;
     string.excitation = described.excitation;
     string.release_t60_s =
@@ -244,6 +249,7 @@ Result<InstrumentModel> compile_instrument(const InstrumentDescription& instrume
     model.pickups = instrument.pickups;
     model.fade_shape = fade_shape(output_rate_hz);
     model.body = body_model(instrument, output_rate_hz);
+    model.bridge = bridge_model(instrument, output_rate_hz);
     for (std::size_t s = 0; s < instrument.strings.size(); ++s)
         model.strings.push_back(string_without_stops(instrument, s));
     set_courses(model, instrument);

@@ -6,10 +6,12 @@
 #include "base/assert.h"
 #include "instrument/play/control_targets.h"
 #include "instrument/play/controls.h"
+#include "instrument/play/coupled_frames.h"
 #include "instrument/play/events.h"
 #include "instrument/play/impacts.h"
 #include "instrument/play/strokes.h"
 #include "instrument/voice/body.h"
+#include "instrument/voice/bridge_model.h"
 #include "instrument/voice/pickups.h"
 #include "instrument/voice/voice.h"
 
@@ -88,6 +90,11 @@ std::size_t run_length(const InstrumentState& state, std::size_t frames) {
 void advance(const InstrumentModel& model, InstrumentState& state, std::span<double* const> strings,
              std::size_t n, double smoothing, Run& run) {
     for (auto* signal : {&run.left, &run.right, &run.bridge_N}) std::fill_n(signal->begin(), run.frames, 0.0);
+    if (bridge_moves(model)) {
+        advance_coupled(model, state, {strings, n}, smoothing,
+                        {run.frames, run.left.data(), run.right.data()});
+        return;
+    }
     bool busy = false;
     StringRun one;
     const std::size_t heard =

@@ -79,6 +79,8 @@ Voice& take_note(const InstrumentModel& model, InstrumentState& state, std::size
     voice.phase = VoicePhase::Sounding;
     voice.channel = channel;
     voice.targets = gain_targets(model, state, s, channel);
+    state.bridge.channel = channel;
+    if (!state.bridge.ringing) state.bridge.level = body_level(state, channel);
     string.sounding = v;
     string.pending.active = false;
     return voice;

@@ -1,0 +1,91 @@
+#include "instrument/voice/bridge_model.h"
+
+#include <algorithm>
+
+#include "instrument/voice/oscillator.h"
+
+namespace jawari {
+namespace {
+
+void append_mode(BridgeModel& bridge, const InstrumentDescription& instrument,
+                 const BodyModeDescription& mode, double output_rate_hz) {
+    const Oscillator oscillator = oscillator_of(mode);
+    const OscillatorFrame frame = oscillator_frame(oscillator, 1 / output_rate_hz);
+    const std::size_t j = bridge.count++;
+    bridge.yy[j] = frame.yy;
+    bridge.yv[j] = frame.yv;
+    bridge.vy[j] = frame.vy;
+    bridge.vv[j] = frame.vv;
+    bridge.y_held[j] = frame.y_held / mode.mass_kg;
+    bridge.v_held[j] = frame.v_held / mode.mass_kg;
+    bridge.mass_kg[j] = mode.mass_kg;
+    bridge.stiffness[j] = mode.mass_kg * oscillator.omega * oscillator.omega;
+    bridge.gain_left[j] = instrument.gain * mode.gain_left;
+    bridge.gain_right[j] = instrument.gain * mode.gain_right;
+    for (std::size_t s = 0; s < instrument.strings.size(); ++s)
+        bridge.shape[s * bridge.stride + j] = mode.shape.empty() ? 1.0 : mode.shape[s];
+}
+
+}  // namespace
+
+BridgeModel bridge_model(const InstrumentDescription& instrument, double output_rate_hz) {
+    BridgeModel bridge;
+    if (!instrument.bridge) return bridge;
+    bridge.open_strings = instrument.bridge->open_strings;
+    bridge.stride = padded(instrument.body.size());
+    for (auto* array : {&bridge.yy, &bridge.yv, &bridge.vy, &bridge.vv, &bridge.y_held, &bridge.v_held,
+                        &bridge.mass_kg, &bridge.stiffness, &bridge.gain_left, &bridge.gain_right})
+        array->assign(bridge.stride, 0.0);
+    bridge.shape.assign(instrument.strings.size() * bridge.stride, 0.0);
+    for (const BodyModeDescription& mode : instrument.body) {
+        if (is_audible(mode, output_rate_hz)) append_mode(bridge, instrument, mode, output_rate_hz);
+    }
+    return bridge;
+}
+
+BridgeState make_bridge_state(const BridgeModel& bridge, std::size_t strings, std::size_t voices) {
+    BridgeState state;
+    if (bridge.count == 0) return state;
+    for (auto* array : {&state.y, &state.v, &state.mean, &state.force_N, &state.path, &state.solution})
+        array->assign(bridge.stride, 0.0);
+    for (auto* array : {&state.matrix, &state.factor}) array->assign(bridge.count * bridge.stride, 0.0);
+    for (auto* array : {&state.y_of, &state.v_of}) array->assign(strings * bridge.stride, 0.0);
+    state.couplings.assign(voices, 0.0);
+    state.voices.resize(voices);
+    return state;
+}
+
+void silence_bridge(BridgeState& state) JAWARI_REALTIME {
+    for (auto* array : {&state.y, &state.v, &state.y_of, &state.v_of})
+        std::fill(array->begin(), array->end(), 0.0);
+    state.debt_J = 0;
+    state.ringing = false;
+}
+
+void reset_bridge(BridgeState& state) JAWARI_REALTIME {
+    silence_bridge(state);
+    state.level = 0;
+    state.channel = 0;
+    state.nonfinite_resets = 0;
+    state.stale = true;
+    state.summed = false;
+    state.voice_count = 0;
+}
+
+double body_energy(const BridgeModel& bridge, const BridgeState& state) JAWARI_REALTIME {
+    double sum = 0;
+    for (std::size_t j = 0; j < bridge.count; ++j)
+        sum += bridge.mass_kg[j] * state.v[j] * state.v[j] + bridge.stiffness[j] * state.y[j] * state.y[j];
+    return sum / 2;
+}
+
+double end_stiffness(const StringModel& model, const double* bridge_row, double tension_N,
+                     double growth) JAWARI_REALTIME {
+    double sum = 0;
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k)
+        sum += bridge_row[k] * bridge_row[k] / (2 * model.tuning.potential[k]);
+    // The coupling multiplies it by growth^2, the tension has grown once.
+    return sum + tension_N / (growth * model.shape->length_m);
+}
+
+}  // namespace jawari
