@@ -52,6 +52,8 @@ struct InstrumentStringDescription {
     std::optional<FretsDescription> frets;     ///< replaces the instrument's frets on this string
     std::optional<StringPlace> exciter_place;  ///< replaces the exciters' places on this string
     double release_t60_s = 0;  ///< replaces HandDescription::release_t60_s, 0.005 to 60 [s]; 0: does not
+    /// No key plays it; on a moving bridge it answers to others. It has no frets.
+    bool sympathetic = false;
 };
 
 // ---------------------------------------------------------------------------------------------- obstacles

@@ -18,7 +18,9 @@ namespace jawari {
 /// the obstacles are its contacts, with heights relative to the line from the stop's top to the bridge. Its
 /// tension is the one at which the first partial is the note.
 struct StoppedStringModel {
-    int key = -1;  ///< MIDI note number; -1 if the tuning leaves it unmapped: `string` is empty then
+    /// MIDI note number; -1 if no key plays it, because the string is sympathetic, or because the tuning
+    /// leaves it unmapped: `string` is empty then.
+    int key = -1;
     double frequency_hz = 0;             ///< of the first partial [Hz]
     StringModel string;                  ///< the speaking length
     double inharmonicity = 0;            ///< B at this stop [1]
@@ -52,6 +54,7 @@ struct InstrumentStringModel {
     std::string name;            ///< of the description
     std::size_t course = 0;      ///< index into InstrumentModel::courses
     double level = 1;            ///< factor of the string's signals: its level times the instrument's gain
+    bool sympathetic = false;    ///< no key plays it
     double own_level = 1;        ///< of the description, by which the string acts on a moving bridge
     double pan = 0;              ///< -1 left to 1 right
     double excitation = 1;       ///< factor of lifts and hammer speeds
@@ -129,6 +132,8 @@ struct InstrumentModel {
 
 /// A voice whose energy is below this share of the string's energy at full velocity is at rest (-150 dB).
 inline constexpr double rest_energy_ratio = 1e-15;
+/// The same of a string that answers, over that of one that is played: -120 dB of the loudest.
+inline constexpr double answer_energy_ratio = 1000;
 /// Time in which a voice fades that is taken away before it is at rest [s].
 inline constexpr double fade_s = 0.003;
 

@@ -21,18 +21,19 @@ namespace jawari {
 enum class VoicePhase {
     Idle,      ///< at rest, costs nothing
     Sounding,  ///< the string's note
-    Damped     ///< an earlier note, under the damping hand if there is one
+    Damped,    ///< an earlier note, under the damping hand if there is one
+    Answering  ///< an open string that nobody plays, which a moving bridge drives
 };
 
 /// A voice's own copy of its string, at another tension.
 struct BendState {
-    bool active = false;               ///< `model` is in force
-    double semitones = 0;              ///< bend in force
-    double target = 0;                 ///< where it goes [semitones]
-    StringModel model;                 ///< the string at that tension
-    AlignedVector<double> backward_q;  ///< StoppedStringModel::backward_q, of `model`
-    AlignedVector<double> backward_u;  ///< StoppedStringModel::backward_u, of `model`
-    double growth = 1;                 ///< tension over compiled tension, if the bridge moves
+    bool active = false;                  ///< `model` is in force
+    double semitones = 0;                 ///< bend in force
+    double target = 0;                    ///< where it goes [semitones]
+    StringModel model;                    ///< the string at that tension
+    AlignedVector<double> backward_q;     ///< StoppedStringModel::backward_q, of `model`
+    AlignedVector<double> backward_u;     ///< StoppedStringModel::backward_u, of `model`
+    double growth = 1;                    ///< tension over compiled tension, if the bridge moves
     double bridge_stiffness_N_per_m = 0;  ///< StoppedStringModel::bridge_stiffness_N_per_m, of `model`
 };
 
@@ -66,8 +67,8 @@ struct QualityRemainder {
 
 /// A voice's end on a bridge that moves, as the last frame had it.
 struct BridgeEnd {
-    /// How the voice acts on the bridge: it feels weight times the bridge's displacement, and the bridge weight
-    /// times its force. Fades, the string's level and its tension are in it; 0: not at all.
+    /// How the voice acts on the bridge: it feels weight times the bridge's displacement, and the bridge
+    /// weight times its force. Fades, the string's level and its tension are in it; 0: not at all.
     double weight = 0;
     double stiffness_N_per_m = 0;  ///< kappa at the voice's tension [N/m]
     double force_N = 0;            ///< at the frame's end, before the weight [N]
@@ -190,7 +191,9 @@ struct BridgeState {
     double debt_J = 0;
     double level = 0;                    ///< factor of what is heard, follows the controls of `channel`
     int channel = 0;                     ///< of the last note
+    std::uint64_t answers_from = 0;      ///< output frame before which no open string begins to answer
     bool ringing = false;                ///< not at rest
+    bool drives = false;                 ///< it moves enough for open strings to answer
     std::uint64_t nonfinite_resets = 0;  ///< times it was put to rest because its state was not finite
 
     // -- the system of a frame: (2/y_held + sum_i couplings_i shape_i shape_i') delta = right
@@ -207,6 +210,7 @@ struct BridgeState {
     std::size_t voice_count = 0;        ///< voices of the frame
     /// For outputs of strings: what of the body's motion each string has caused, strings x stride.
     AlignedVector<double> y_of, v_of;
+    bool separates = false;  ///< outputs of strings are asked for
 };
 
 /// What the instrument has counted since make_instrument_state() or reset().

@@ -151,7 +151,8 @@ Result<StoppedStringModel> compile_stopped(const InstrumentDescription& instrume
         return stopped;
     }
     const FretsDescription& frets = frets_of(instrument, instrument.strings[index]);
-    stopped.key = instrument.strings[index].open_note + semitones_of(frets, fret);
+    if (!instrument.strings[index].sympathetic)
+        stopped.key = instrument.strings[index].open_note + semitones_of(frets, fret);
     std::string place = detail::indexed_place("strings", index);
     const StringDescription description = stopped_string(instrument, index, fret);
     const auto& modes = std::get<PhysicalModes>(description.modes);
@@ -183,6 +184,7 @@ InstrumentStringModel string_without_stops(const InstrumentDescription& instrume
     string.name = described.name;
     string.level = instrument.gain * described.level;
     string.own_level = described.level;
+    string.sympathetic = described.sympathetic;
     string.pan = described.pan;
     string.excitation = described.excitation;
     string.release_t60_s =
@@ -214,7 +216,8 @@ void set_courses(InstrumentModel& model, const InstrumentDescription& instrument
 std::optional<Failure> compile_stops(InstrumentModel& model, const InstrumentDescription& instrument,
                                      std::size_t index) {
     InstrumentStringModel& string = model.strings[index];
-    const std::size_t frets = frets_of(instrument, instrument.strings[index]).count;
+    const InstrumentStringDescription& described = instrument.strings[index];
+    const std::size_t frets = described.sympathetic ? 0 : frets_of(instrument, described).count;
     for (std::size_t fret = 0; fret <= frets; ++fret) {
         auto stopped = compile_stopped(instrument, model, index, fret);
         if (!stopped) return stopped.failure();

@@ -28,13 +28,6 @@ void find_voices(InstrumentState& state) {
     }
 }
 
-/// What the string's pickups and its share of the body's motion give.
-void write_string(const InstrumentModel& model, InstrumentState& state, const StringOutputs& outputs,
-                  std::size_t s, std::size_t n, double pickups) {
-    const double body = advance_body_of_string(model.bridge, state.bridge, s);
-    outputs.strings[s][outputs.first + n] = pickups + state.bridge.level * body;
-}
-
 /// The factor of the body's sound follows volume, expression and body mix of the last note's channel.
 void follow_level(InstrumentState& state, double smoothing) {
     const double target = body_level(state, state.bridge.channel);
@@ -58,7 +51,19 @@ void end_voices(const InstrumentModel& model, InstrumentState& state, const Stri
         }
         run.left[n] += signals.left;
         run.right[n] += signals.right;
-        if (s < outputs.strings.size()) write_string(model, state, outputs, s, n, signals.pickups);
+        if (s < outputs.strings.size()) outputs.strings[s][outputs.first + n] = signals.pickups;
+    }
+}
+
+/// Adds to each string's output what of the body's motion it has caused, in the mean of both channels.
+void hear_strings(const BridgeModel& bridge, const BridgeState& state, const StringOutputs& outputs,
+                  std::size_t n) {
+    for (std::size_t s = 0; s < outputs.strings.size(); ++s) {
+        const double* v = state.v_of.data() + s * bridge.stride;
+        double sum = 0;
+        for (std::size_t j = 0; j < bridge.count; ++j)
+            sum += (bridge.gain_left[j] + bridge.gain_right[j]) / 2 * v[j];
+        outputs.strings[s][outputs.first + n] += state.level * sum;
     }
 }
 
@@ -98,6 +103,7 @@ bool is_still(const InstrumentState& state) {
 void advance_coupled(const InstrumentModel& model, InstrumentState& state, const StringOutputs& outputs,
                      double smoothing, const StereoRun& run) JAWARI_REALTIME {
     BridgeState& bridge = state.bridge;
+    bridge.separates = !outputs.strings.empty();
     for (std::size_t n = 0; n < run.frames; ++n, ++state.frame) {
         follow_level(state, smoothing);
         if (is_still(state)) {
@@ -110,7 +116,10 @@ void advance_coupled(const InstrumentModel& model, InstrumentState& state, const
             begin_coupled_frame(model, state, bridge.voices[i]);
         solve_bridge_frame(model, state);
         end_voices(model, state, outputs, smoothing, n, run);
+        for (std::size_t s = 0; s < outputs.strings.size(); ++s)
+            advance_body_of_string(model.bridge, bridge, s);
         end_bridge_frame(model.bridge, bridge);
+        hear_strings(model.bridge, bridge, outputs, n);
         let_go(model, state);
         hear_body(model.bridge, bridge, run.left[n], run.right[n]);
     }

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/assert.h"
+#include "instrument/play/answering.h"
 #include "instrument/play/control_targets.h"
 #include "instrument/play/controls.h"
 #include "instrument/play/coupled_frames.h"
@@ -135,7 +136,10 @@ void render_frames(const InstrumentModel& model, InstrumentState& state,
         while (due < events.size() && events[due].frame <= n) ++due;
         apply_events(model, state, events.subspan(next, due - next));
         next = due;
-        if (state.busy && state.frame % control_frames == 0) follow_controls(model, state);
+        if (state.frame % control_frames == 0) {
+            if (state.busy) follow_controls(model, state);
+            if (bridge_moves(model) && state.bridge.ringing) follow_answers(model, state);
+        }
         const std::size_t end = next < events.size() ? std::min(frames, events[next].frame) : frames;
         run.frames = run_length(state, end - n);
         advance(model, state, strings, n, smoothing, run);

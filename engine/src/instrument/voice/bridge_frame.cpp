@@ -166,6 +166,17 @@ bool is_finite(const AlignedVector<double>& x) {
     return std::isfinite(sum);
 }
 
+/// The same of each string alone.
+void share_out(const BridgeModel& bridge, BridgeState& state, double share) {
+    for (std::size_t i = 0; i < state.voice_count; ++i) {
+        const VoiceOnBridge& voice = state.voices[i];
+        const double* shape = shape_under(bridge, voice.string);
+        double* v = state.v_of.data() + voice.string * bridge.stride;
+        const double added = share * voice.weight * voice.left_N / 2;
+        for (std::size_t j = 0; j < bridge.count; ++j) v[j] += added * shape[j] * bridge.v_held[j];
+    }
+}
+
 /// What contacts have changed of the pull at the frame's end would have moved the body in the frame, which is
 /// over: it gets the energy of that as a change of its speed along `kick`.
 void pay_for_contacts(const BridgeModel& bridge, BridgeState& state, double owed_J, const double* kick) {
@@ -183,6 +194,7 @@ void pay_for_contacts(const BridgeModel& bridge, BridgeState& state, double owed
         if (!std::isfinite(share)) share = 0;
     }
     for (std::size_t j = 0; j < bridge.count; ++j) state.v[j] += share * kick[j];
+    if (state.separates) share_out(bridge, state, share);
     state.debt_J = owed_J - share * (quadratic * share + linear);
 }
 
@@ -262,7 +274,7 @@ void end_bridge_frame(const BridgeModel& bridge, BridgeState& state) JAWARI_REAL
     }
 }
 
-double advance_body_of_string(const BridgeModel& bridge, BridgeState& state, std::size_t s) JAWARI_REALTIME {
+void advance_body_of_string(const BridgeModel& bridge, BridgeState& state, std::size_t s) JAWARI_REALTIME {
     double* y = state.y_of.data() + s * bridge.stride;
     double* v = state.v_of.data() + s * bridge.stride;
     double force_N = 0;
@@ -274,15 +286,12 @@ double advance_body_of_string(const BridgeModel& bridge, BridgeState& state, std
                                    frame.stiffness_N_per_m * voice.zeta_m);
     }
     const double* shape = shape_under(bridge, s);
-    double sum = 0;
     for (std::size_t j = 0; j < bridge.count; ++j) {
         const double y_end =
             bridge.yy[j] * y[j] + bridge.yv[j] * v[j] + bridge.y_held[j] * shape[j] * force_N;
         v[j] = bridge.vy[j] * y[j] + bridge.vv[j] * v[j] + bridge.v_held[j] * shape[j] * force_N;
         y[j] = y_end;
-        sum += (bridge.gain_left[j] + bridge.gain_right[j]) / 2 * v[j];
     }
-    return sum;
 }
 
 double coupling_energy(double weight, double bridge_m, double force_N,

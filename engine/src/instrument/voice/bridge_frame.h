@@ -19,9 +19,9 @@ void solve_bridge_frame(const InstrumentModel& model, InstrumentState& state) JA
 /// Moves the body by the frame, and gives it what contacts have changed (VoiceOnBridge::left_N).
 void end_bridge_frame(const BridgeModel& bridge, BridgeState& state) JAWARI_REALTIME;
 
-/// Moves what string s alone has done to the body, for outputs of strings, and returns the mean of both
-/// channels. `ends`: the string has voices in the frame.
-double advance_body_of_string(const BridgeModel& bridge, BridgeState& state, std::size_t s) JAWARI_REALTIME;
+/// Moves what string s alone has done to the body by the frame, for outputs of strings; before
+/// end_bridge_frame().
+void advance_body_of_string(const BridgeModel& bridge, BridgeState& state, std::size_t s) JAWARI_REALTIME;
 
 /// Energy of the coupling: -weight z X + weight^2 kappa z^2/2 of each voice of the frame, z the bridge at its
 /// start [J].

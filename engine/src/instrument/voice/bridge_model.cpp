@@ -60,12 +60,14 @@ void silence_bridge(BridgeState& state) JAWARI_REALTIME {
         std::fill(array->begin(), array->end(), 0.0);
     state.debt_J = 0;
     state.ringing = false;
+    state.drives = false;
 }
 
 void reset_bridge(BridgeState& state) JAWARI_REALTIME {
     silence_bridge(state);
     state.level = 0;
     state.channel = 0;
+    state.answers_from = 0;
     state.nonfinite_resets = 0;
     state.stale = true;
     state.summed = false;

@@ -39,10 +39,14 @@ void add_remainder(const InstrumentModel& model, QualityRemainder& remainder, do
     remainder.active = remainder.frame < model.fade_shape.size();
 }
 
-bool has_ended(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice) {
+bool has_ended(const InstrumentModel& model, const InstrumentStringModel& string,
+               const InstrumentState& state, Voice& voice) {
     if (voice.fading) return voice.fade_frame >= model.fade_shape.size();
     if (voice.age % rest_check_frames != 0 || voice.touches.exciter.phase != ExciterPhase::None) return false;
-    return voice_energy(string, voice) < string.stopped[voice.fret].rest_energy_J;
+    const double rest_J = string.stopped[voice.fret].rest_energy_J;
+    if (voice.phase == VoicePhase::Answering)
+        return voice_energy(string, voice) < answer_energy_ratio * rest_J && !state.bridge.drives;
+    return voice_energy(string, voice) < rest_J;
 }
 
 void follow(double target, double smoothing, double& value) {
@@ -100,7 +104,7 @@ void add_signals(VoiceRun& run, std::size_t n, std::uint64_t resets, VoiceSignal
     sum.left += signals.left;
     sum.right += signals.right;
     sum.bridge_N += signals.bridge_N;
-    if (has_ended(model, run.string, voice)) finish(voice, run.state);
+    if (has_ended(model, run.string, run.state, voice)) finish(voice, run.state);
 }
 
 }  // namespace jawari

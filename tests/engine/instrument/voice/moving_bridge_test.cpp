@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -337,6 +338,100 @@ TEST(MovingBridge, NeverHasMoreEnergyThanItWasGiven) {
         EXPECT_LT(worst, 1e-12) << body_kg;
         EXPECT_LT(largest_debt, 1e-3 * largest) << body_kg;
         EXPECT_EQ(contact_counters(state).nonfinite_resets + finished_nonfinite_resets(state), 0U);
+    }
+}
+
+/// Two strings in unison on one bridge, the second sympathetic: it rings along, and stops when it is not
+/// free.
+InstrumentDescription with_sympathetic_string() {
+    InstrumentDescription instrument = random_instrument(3);
+    instrument.strings.resize(2, instrument.strings[0]);
+    instrument.strings[0] = instrument.strings[1];
+    instrument.strings[0].open_frequency_hz = instrument.strings[1].open_frequency_hz = 440;
+    instrument.strings[1].sympathetic = true;
+    for (auto& mode : instrument.body) mode.shape = {1, 1};
+    instrument.bridge = BridgeDescription{.open_strings = false};
+    return instrument;
+}
+
+double answer_of(const InstrumentModel& model, double freedom) {
+    InstrumentState state = make_instrument_state(model);
+    std::vector<double> left(24000), right(24000);
+    const std::vector<InstrumentEvent> events{set_parameter(0, ParameterId::OpenStrings, freedom),
+                                              note_on(0, 60, 1)};
+    render_instrument(model, state, events, {left.data(), right.data(), {}}, left.size());
+    return string_energy(model, state, 1) / string_energy(model, state, 0);
+}
+
+TEST(MovingBridge, SympatheticStringsAnswerAndNoKeyPlaysThem) {
+    const auto compiled = compile_instrument(with_sympathetic_string(), rate_hz);
+    ASSERT_TRUE(compiled.ok()) << compiled.failure().place;
+    const InstrumentModel& model = compiled.value();
+    EXPECT_EQ(model.strings[1].stopped[0].key, -1);
+    const double free = answer_of(model, 1);
+    EXPECT_GT(free, 1e-4);
+    EXPECT_LT(answer_of(model, 0.5), 0.1 * free);
+    EXPECT_EQ(answer_of(model, 0), 0);
+}
+
+TEST(MovingBridge, BlocksDoNotChangeABitAndStringsAddUpToTheWhole) {
+    const auto compiled = compile_instrument(played_instrument(0.2), rate_hz);
+    ASSERT_TRUE(compiled.ok());
+    const InstrumentModel& model = compiled.value();
+    std::vector<InstrumentEvent> events;
+    std::mt19937_64 random(11);
+    for (std::size_t n = 0; n < 40; ++n) {
+        for (InstrumentEvent event : random_event(random, model)) {
+            event.frame = 301 * n;
+            events.push_back(event);
+        }
+    }
+    InstrumentState state = make_instrument_state(model);
+    const test::Played whole = test::play(model, state, events, 14000, 14000);
+    for (const std::size_t block : {1U, 17U, 64U, 512U}) {
+        InstrumentState other = make_instrument_state(model);
+        EXPECT_EQ(test::play(model, other, events, 14000, block), whole) << block;
+    }
+    InstrumentState third = make_instrument_state(model);
+    std::vector<double> left(14000), right(14000);
+    std::vector<std::vector<double>> strings(3, std::vector<double>(14000));
+    std::vector<double*> pointers;
+    for (auto& string : strings) pointers.push_back(string.data());
+    for (InstrumentEvent& event : events) event.frame = std::min<std::size_t>(event.frame, 13999);
+    render_instrument(model, third, events, {left.data(), right.data(), pointers}, left.size());
+    EXPECT_EQ(left, whole.left);
+    // Without pan, so of pickups that are in the middle; the body alone here.
+    InstrumentDescription acoustic = played_instrument(0.2);
+    acoustic.pickups.clear();
+    const InstrumentModel body = compile_instrument(acoustic, rate_hz).value();
+    InstrumentState fourth = make_instrument_state(body);
+    render_instrument(body, fourth, events, {left.data(), right.data(), pointers}, left.size());
+    double largest = 0;
+    for (std::size_t n = 0; n < left.size(); ++n) largest = std::max(largest, std::abs(left[n]));
+    ASSERT_GT(largest, 0);
+    for (std::size_t n = 0; n < left.size(); ++n) {
+        ASSERT_NEAR(strings[0][n] + strings[1][n] + strings[2][n], (left[n] + right[n]) / 2, 1e-9 * largest)
+            << n;
+    }
+}
+
+/// A string that has lost its numbers keeps them to itself.
+TEST(MovingBridge, LostNumbersStayWhereTheyAre) {
+    const auto compiled = compile_instrument(random_instrument(5), rate_hz);
+    const InstrumentModel& model = compiled.value();
+    for (const double poison : {std::numeric_limits<double>::quiet_NaN(), 1e308}) {
+        InstrumentState state = state_of(model);
+        state.strings[0].voices[0].string.displacement[0] = 1e-3;
+        notice_change(model.strings[0].stopped[0].string, state.strings[0].voices[0].string);
+        std::vector<double> out(1000);
+        render_instrument(model, state, {}, out.data(), out.size());
+        state.strings[1].voices[0].string.displacement[2] = poison;
+        notice_change(model.strings[1].stopped[0].string, state.strings[1].voices[0].string);
+        render_instrument(model, state, {}, out.data(), out.size());
+        for (const double sample : out) ASSERT_TRUE(std::isfinite(sample));
+        EXPECT_GT(string_energy(model, state, 0), 0);
+        EXPECT_TRUE(std::isfinite(whole_energy(model, state)));
+        EXPECT_GE(contact_counters(state).nonfinite_resets + finished_nonfinite_resets(state), 1U);
     }
 }
 
