@@ -203,10 +203,11 @@ struct BodyModeDescription {
     double t60_s = 0;         ///< time of a decay by 60 dB, 1e-4 to 20 [s]
     double gain_left = 0;     ///< output on the left per velocity, -1e6 to 1e6 [s/m]
     double gain_right = 0;    ///< output on the right per velocity, -1e6 to 1e6 [s/m]
-    double mass_kg = 1;       ///< where the shape is 1, 1e-4 to 1e4 [kg]
-    /// Displacement of the bridge under each string per displacement of the mode, -100 to 100; empty: 1 under
-    /// all. Mass and shape count where the bridge moves;
-    /// under a rigid one the mode weighs 1 kg and its shape is 1.
+    /// Of a mode that moves the bridge, 1e-4 to 1e4 [kg]; 0: it listens to the force on the bridge, as a mode
+    /// of 1 kg, and takes nothing. On a rigid bridge all do.
+    double mass_kg = 0;
+    /// Of a mode with mass: displacement of the bridge under each string per displacement of the mode, -100
+    /// to 100; empty: 1 under all.
     std::vector<double> shape{};
 };
 

@@ -37,8 +37,12 @@ struct StoppedStringModel {
     /// [N m^(-3/2)].
     AlignedVector<double> pickup_rows;
     AlignedVector<double> bridge_row;  ///< force on the bridge = row . q [N m^(-3/2)]; empty without a body
+    /// The same for a moving bridge, with what meeting it once a frame takes (allow_for_frames(),
+    /// pickups.cpp).
+    AlignedVector<double> end_row;
+    double end_rest_N = 0;  ///< end_row . q at rest [N]
     /// kappa: what the end at a moving bridge resists while the modes stand still,
-    /// sum_k bridge_row_k^2/(mu omega_k^2) + T/L [N/m]; 0 if the bridge is rigid.
+    /// sum_k end_row_k^2/(mu omega_k^2) + T/L [N/m]; 0 if the bridge is rigid.
     double bridge_stiffness_N_per_m = 0;
     std::vector<double> pickup_rest;  ///< pickup_rows . q at rest, one value for each pickup
     double bridge_rest_N = 0;         ///< bridge_row . q at rest [N]
@@ -126,8 +130,8 @@ struct InstrumentModel {
     /// is lower[n - 1], level 0 is `strings`.
     std::vector<std::vector<InstrumentStringModel>> lower;
     std::vector<CourseModel> courses;  ///< strings that sound together, each string in one course
-    BodyModel body;                    ///< resonances of the body on a rigid bridge, else without modes
-    BridgeModel bridge;                ///< resonances of the body on a bridge that moves, else without modes
+    BodyModel body;                    ///< resonances of the body that listen
+    BridgeModel bridge;                ///< resonances of the body that move the bridge
 };
 
 /// A voice whose energy is below this share of the string's energy at full velocity is at rest (-150 dB).

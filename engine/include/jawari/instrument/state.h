@@ -244,8 +244,8 @@ struct InstrumentState {
     std::vector<InstrumentStringState> strings;        ///< as InstrumentModel::strings
     std::vector<CourseState> courses;                  ///< as InstrumentModel::courses
     std::array<ChannelState, midi_channels> channels;  ///< controllers and parameters of each channel
-    BodyState body;                                    ///< resonances of the body on a rigid bridge
-    BridgeState bridge;                                ///< the body on a bridge that moves
+    BodyState body;                                    ///< resonances of the body that listen
+    BridgeState bridge;                                ///< resonances of the body that move the bridge
     /// The body as each string alone drives it, for outputs of strings; empty without a body.
     std::vector<BodyState> string_bodies;
     std::uint64_t note_order = 0;     ///< HeldNote::order of the next note-on

@@ -170,7 +170,7 @@ Result<StoppedStringModel> compile_stopped(const InstrumentDescription& instrume
     set_output_rows(stopped, instrument, model.output_rate_hz);
     if (instrument.bridge)
         stopped.bridge_stiffness_N_per_m =
-            end_stiffness(stopped.string, stopped.bridge_row.data(), modes.tension_N, 1);
+            end_stiffness(stopped.string, stopped.end_row.data(), modes.tension_N, 1);
     calibrate_exciters(stopped, model, model.strings[index]);
     find_action_contacts(stopped, instrument, index, fret);
     return stopped;

@@ -5,6 +5,7 @@
 #include "instrument/model/played_string.h"
 #include "instrument/play/control_targets.h"
 #include "instrument/play/impacts.h"
+#include "instrument/voice/body.h"
 #include "instrument/voice/bridge_frame.h"
 #include "instrument/voice/coupled_voice.h"
 #include "instrument/voice/voice.h"
@@ -51,7 +52,12 @@ void end_voices(const InstrumentModel& model, InstrumentState& state, const Stri
         }
         run.left[n] += signals.left;
         run.right[n] += signals.right;
-        if (s < outputs.strings.size()) outputs.strings[s][outputs.first + n] = signals.pickups;
+        run.bridge_N[n] += signals.bridge_N;
+        if (s >= outputs.strings.size()) continue;
+        outputs.strings[s][outputs.first + n] = signals.pickups;
+        if (state.string_bodies.empty()) continue;
+        const StereoSample body = advance_body(model.body, state.string_bodies[s], signals.bridge_N);
+        outputs.strings[s][outputs.first + n] += (body.left + body.right) / 2;
     }
 }
 
@@ -95,7 +101,7 @@ void hear_body(const BridgeModel& bridge, const BridgeState& state, double& left
 }
 
 bool is_still(const InstrumentState& state) {
-    return !state.busy && !state.bridge.ringing;
+    return !state.busy && !state.bridge.ringing && !state.body.ringing;
 }
 
 }  // namespace
@@ -122,6 +128,9 @@ void advance_coupled(const InstrumentModel& model, InstrumentState& state, const
         hear_strings(model.bridge, bridge, outputs, n);
         let_go(model, state);
         hear_body(model.bridge, bridge, run.left[n], run.right[n]);
+        const StereoSample body = advance_body(model.body, state.body, run.bridge_N[n]);
+        run.left[n] += body.left;
+        run.right[n] += body.right;
     }
 }
 

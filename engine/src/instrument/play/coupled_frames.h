@@ -21,6 +21,7 @@ struct StereoRun {
     std::size_t frames = 0;
     double* left = nullptr;
     double* right = nullptr;
+    double* bridge_N = nullptr;  ///< force that the modes that listen hear [N]
 };
 
 /// Advances by run.frames frames. The numbers do not depend on how frames are divided into runs.

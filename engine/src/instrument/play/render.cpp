@@ -93,7 +93,7 @@ void advance(const InstrumentModel& model, InstrumentState& state, std::span<dou
     for (auto* signal : {&run.left, &run.right, &run.bridge_N}) std::fill_n(signal->begin(), run.frames, 0.0);
     if (bridge_moves(model)) {
         advance_coupled(model, state, {strings, n}, smoothing,
-                        {run.frames, run.left.data(), run.right.data()});
+                        {run.frames, run.left.data(), run.right.data(), run.bridge_N.data()});
         return;
     }
     bool busy = false;

@@ -1,5 +1,5 @@
 // A voice's end on a moving bridge, over one output frame. The bridge acts on the string as a force held on
-// the row b (StoppedStringModel::bridge_row): b_k zeta on mode k, zeta the bridge's mean displacement in the
+// the row b (StoppedStringModel::end_row): b_k zeta on mode k, zeta the bridge's mean displacement in the
 // frame. It is solved together with touches and exciter (docs/engine/model.md, "The moving bridge").
 #pragma once
 

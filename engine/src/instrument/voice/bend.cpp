@@ -76,7 +76,7 @@ void set_end_tension(const StoppedStringModel& stopped, Voice& voice) {
         square(stopped.wave_impedance_kg_per_s) / stopped.string.shape->linear_density_kg_per_m;
     voice.bend.growth = tension_growth(stopped, voice.bend.semitones);
     voice.bend.bridge_stiffness_N_per_m =
-        end_stiffness(voice.bend.model, stopped.bridge_row.data(), tension_N, voice.bend.growth);
+        end_stiffness(voice.bend.model, stopped.end_row.data(), tension_N, voice.bend.growth);
 }
 
 }  // namespace

@@ -24,14 +24,17 @@ void silence(BodyState& state) {
 
 BodyModel body_model(const InstrumentDescription& instrument, double output_rate_hz) {
     BodyModel body;
-    body.count = instrument.bridge ? 0 : instrument.body.size();
+    for (const BodyModeDescription& mode : instrument.body)
+        body.count += moves_bridge(instrument, mode) ? 0 : 1;
     const std::size_t stride = padded(body.count);
     for (auto* array : {&body.yy, &body.yv, &body.vy, &body.vv, &body.y_held, &body.v_held, &body.y_ramp,
                         &body.v_ramp, &body.gain_left, &body.gain_right}) {
         array->assign(stride, 0.0);
     }
-    for (std::size_t i = 0; i < body.count; ++i) {
-        const BodyModeDescription& mode = instrument.body[i];
+    std::size_t next = 0;
+    for (const BodyModeDescription& mode : instrument.body) {
+        if (moves_bridge(instrument, mode)) continue;
+        const std::size_t i = next++;
         if (!is_audible(mode, output_rate_hz)) continue;
         const OscillatorFrame frame = oscillator_frame(oscillator_of(mode), 1 / output_rate_hz);
         body.yy[i] = frame.yy;

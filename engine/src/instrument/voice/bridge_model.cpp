@@ -38,7 +38,8 @@ BridgeModel bridge_model(const InstrumentDescription& instrument, double output_
         array->assign(bridge.stride, 0.0);
     bridge.shape.assign(instrument.strings.size() * bridge.stride, 0.0);
     for (const BodyModeDescription& mode : instrument.body) {
-        if (is_audible(mode, output_rate_hz)) append_mode(bridge, instrument, mode, output_rate_hz);
+        if (moves_bridge(instrument, mode) && is_audible(mode, output_rate_hz))
+            append_mode(bridge, instrument, mode, output_rate_hz);
     }
     return bridge;
 }
@@ -81,11 +82,11 @@ double body_energy(const BridgeModel& bridge, const BridgeState& state) JAWARI_R
     return sum / 2;
 }
 
-double end_stiffness(const StringModel& model, const double* bridge_row, double tension_N,
+double end_stiffness(const StringModel& model, const double* end_row, double tension_N,
                      double growth) JAWARI_REALTIME {
     double sum = 0;
     for (std::size_t k = 0; k < model.shape->mode_count; ++k)
-        sum += bridge_row[k] * bridge_row[k] / (2 * model.tuning.potential[k]);
+        sum += end_row[k] * end_row[k] / (2 * model.tuning.potential[k]);
     // The coupling multiplies it by growth^2, the tension has grown once.
     return sum + tension_N / (growth * model.shape->length_m);
 }

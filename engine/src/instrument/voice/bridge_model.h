@@ -26,7 +26,7 @@ double body_energy(const BridgeModel& bridge, const BridgeState& state) JAWARI_R
 
 /// kappa of a string's end, sum_k b_k^2/(mu omega_k^2) + T/L, at the string's tension. `growth`: of the
 /// tension since it was compiled.
-double end_stiffness(const StringModel& model, const double* bridge_row, double tension_N,
+double end_stiffness(const StringModel& model, const double* end_row, double tension_N,
                      double growth) JAWARI_REALTIME;
 
 inline bool bridge_moves(const InstrumentModel& model) {

@@ -12,7 +12,7 @@ namespace jawari {
 namespace {
 
 BridgeEndModel end_model(const StoppedStringModel& stopped, const Voice& voice) {
-    return {stopped.bridge_row.data(), stopped.bridge_rest_N, voice.end.stiffness_N_per_m};
+    return {stopped.end_row.data(), stopped.end_rest_N, voice.end.stiffness_N_per_m};
 }
 
 Voice& voice_of(InstrumentState& state, const VoiceOnBridge& on_bridge) {

@@ -24,6 +24,11 @@ inline bool is_audible(const BodyModeDescription& mode, double output_rate_hz) {
     return mode.frequency_hz < highest_audible * output_rate_hz;
 }
 
+/// Whether the mode moves the bridge; else it listens.
+inline bool moves_bridge(const InstrumentDescription& instrument, const BodyModeDescription& mode) {
+    return instrument.bridge.has_value() && mode.mass_kg > 0;
+}
+
 inline Oscillator oscillator_of(const BodyModeDescription& mode) {
     const double omega = 2 * std::numbers::pi * mode.frequency_hz;
     return {omega, std::min(std::log(1000.0) / mode.t60_s, strongest_damping * omega)};

@@ -139,7 +139,12 @@ void set_output_rows(StoppedStringModel& stopped, const InstrumentDescription& i
     stopped.bridge_row.assign(model.shape->stride, 0.0);
     write_bridge_row(model, stopped.bridge_row.data());
     make_audible(model, output_rate_hz, stopped.bridge_row.data());
-    if (instrument.bridge) allow_for_frames(model, output_rate_hz, stopped.bridge_row.data());
+    if (instrument.bridge) {
+        stopped.end_row = stopped.bridge_row;
+        allow_for_frames(model, output_rate_hz, stopped.end_row.data());
+        stopped.end_rest_N =
+            product(stopped.end_row.data(), model.shape->rest_displacement, model.shape->stride);
+    }
     stopped.bridge_rest_N =
         product(stopped.bridge_row.data(), model.shape->rest_displacement, model.shape->stride);
 }

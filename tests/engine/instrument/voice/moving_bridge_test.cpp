@@ -140,8 +140,10 @@ Eigen::MatrixXd continuous_matrix(const InstrumentDescription& instrument, const
     for (std::size_t s = 0; s < instrument.strings.size(); ++s) {
         const InstrumentStringDescription& string = instrument.strings[s];
         const StringModel& compiled = model.strings[s].stopped[0].string;
-        const double L = string.length_m, mu = string.linear_density_kg_per_m, B = string.inharmonicity;
-        const double f0 = string.open_frequency_hz / std::sqrt(1 + B);
+        const double L = string.length_m, mu = string.linear_density_kg_per_m;
+        // As the string is without the body, which draws it to its note.
+        const double B = model.strings[s].stopped[0].inharmonicity;
+        const double f0 = compiled.tuning.omega[0] / (2 * std::numbers::pi * std::sqrt(1 + B));
         double kappa = 4 * mu * L * f0 * f0;  // T/L
         std::vector<double> row;
         for (std::size_t k = 1; k <= compiled.shape->mode_count; ++k) {
@@ -232,6 +234,28 @@ TEST(MovingBridge, HasTheEigenmodesOfTheWhole) {
     }
     RecordProperty("worst_cents", std::to_string(worst.cents));
     RecordProperty("worst_decay", std::to_string(worst.decay));
+}
+
+/// One string with the body sounds its note, by the eigenvalues of both: the partial near it, or the two that
+/// a resonance of the body near it makes of it.
+TEST(MovingBridge, TheFirstPartialWithTheBodyIsTheNote) {
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        InstrumentDescription instrument = random_instrument(seed);
+        instrument.strings.resize(1);
+        for (auto& mode : instrument.body) mode.shape.resize(1);
+        const auto compiled = compile_instrument(instrument, rate_hz);
+        ASSERT_TRUE(compiled.ok());
+        const Eigen::VectorXcd values = continuous_matrix(instrument, compiled.value()).eigenvalues();
+        double nearest_cents = 1e9;
+        for (const auto& pole : values) {
+            if (pole.imag() <= 0) continue;
+            const double cents =
+                1200 *
+                std::log2(pole.imag() / (2 * std::numbers::pi * instrument.strings[0].open_frequency_hz));
+            if (std::abs(cents) < std::abs(nearest_cents)) nearest_cents = cents;
+        }
+        EXPECT_LT(std::abs(nearest_cents), 0.1) << seed;
+    }
 }
 
 double whole_energy(const InstrumentModel& model, InstrumentState& state) {
