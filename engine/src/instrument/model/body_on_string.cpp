@@ -15,7 +15,9 @@ namespace {
 using std::numbers::pi;
 using Complex = std::complex<double>;
 
-constexpr int rounds = 60;
+/// Newton's method: rounds, relative difference for the slope, longest relative step, relative error.
+constexpr int rounds = 40;
+constexpr double difference = 1e-6, longest_step = 0.03, close_enough = 1e-10;
 /// Points over a third octave at which mobilities are averaged.
 constexpr int points_per_band = 17;
 
@@ -67,15 +69,21 @@ double coupled_first_partial(const InstrumentDescription& instrument, std::size_
                              const StringDescription& stopped) {
     const Partials partials = partials_of(stopped);
     const double omega = partials.modes.omega[0], sigma = partials.modes.sigma[0];
-    // s^2 + 2 sigma s + omega^2 = (b^2/mu) G/(1 - G R), G the body, R the other partials: halving the way
-    // settles where a resonance lies near.
-    Complex s{-sigma, omega};
-    for (int round = 0; round < rounds; ++round) {
+    // s^2 + 2 sigma s + omega^2 = (b^2/mu) G/(1 - G R), G the body, R the other partials.
+    const auto rest = [&](Complex s) {
         const Complex body = receptance(instrument, index, s);
         const Complex pull = partials.pull[0] * body / (1.0 - body * stiffness_of_others(partials, s));
-        Complex next = std::sqrt(pull - 2 * sigma * s - square(omega));
-        if (next.imag() < 0) next = -next;
-        s = (s + next) / 2.0;
+        return s * s + 2 * sigma * s + square(omega) - pull;
+    };
+    Complex s{-sigma, omega};
+    for (int round = 0; round < rounds; ++round) {
+        const Complex step = difference * s;
+        const Complex here = rest(s);
+        const Complex change = here * step / (rest(s + step) - here);
+        // Half a semitone at most: a step over a resonance of the body would lead to another partial.
+        const double shortened = std::min(1.0, longest_step * std::abs(s) / std::abs(change));
+        s -= shortened * change;
+        if (std::abs(change) < close_enough * std::abs(s)) break;
     }
     return s.imag() / (2 * pi);
 }

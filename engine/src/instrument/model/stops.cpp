@@ -215,9 +215,10 @@ StringDescription tuned_string(const InstrumentDescription& instrument, std::siz
     return stopped;
 }
 
-/// How often the tension is corrected: the body draws partials by cents, and a correction by as many changes
-/// that by a thousandth of it.
-constexpr int corrections = 4;
+/// How often the tension is corrected at most, and the share of the frequency that may be missing: near a
+/// resonance of the body the partial follows its string by a part of the way.
+constexpr int corrections = 60;
+constexpr double close_enough = 1e-6;
 
 /// The string whose first partial has that frequency with the body, and which loses with it what it is said
 /// to lose. `rigid`: the same on a rigid bridge.
@@ -231,6 +232,7 @@ StringDescription tuned_on_bridge(const InstrumentDescription& instrument, std::
         std::get<PhysicalModes>(rigid.modes).lost_elsewhere_per_s = losses;
         const double coupled_hz = coupled_first_partial(instrument, index, rigid);
         if (!(coupled_hz > 0.5 * wanted_hz && coupled_hz < 2 * wanted_hz)) break;
+        if (std::abs(coupled_hz - wanted_hz) < close_enough * wanted_hz) break;
         frequency_hz *= wanted_hz / coupled_hz;
     }
     return rigid;
