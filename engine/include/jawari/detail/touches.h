@@ -88,6 +88,18 @@ struct ExciterState {
     TouchedPoint point;
 };
 
+namespace kernels {
+
+/// Rows that touch a string, and what the string does under them: the first `count` of each array are set.
+struct TouchedRows {  // NOLINT(cppcoreguidelines-pro-type-member-init)
+    std::size_t count = 0;
+    std::array<const double*, voice_forces> row;
+    std::array<double, voice_forces> middle;  ///< row (q - lag v)
+    std::array<double, voice_forces> rise;    ///< its change over the frame in free flight
+};
+
+}  // namespace kernels
+
 /// All touches and the exciter of one voice.
 struct TouchState {
     std::array<Touch, touch_slots> touches;  ///< by TouchSlot
@@ -95,9 +107,11 @@ struct TouchState {
     /// G_ij = displacement at i at a frame's end per newton held at j [m/N]; behind the touches the exciter,
     /// then the bridge, whose "force" is its displacement [m] and whose "displacement" a force [N].
     std::array<double, voice_forces * voice_forces> compliance{};
-    bool outdated = true;         ///< compliance must be computed anew
-    std::uint64_t noises = 0;     ///< that have begun: no two are alike
-    AlignedVector<double> moved;  ///< scratch over modes
+    bool outdated = true;           ///< compliance must be computed anew
+    std::uint64_t noises = 0;       ///< that have begun: no two are alike
+    AlignedVector<double> moved;    ///< scratch over modes
+    kernels::TouchedRows known;     ///< of the coming frame on a moving bridge, unless `count` is 0
+    std::uint64_t known_frame = 0;  ///< StringState::frame for which `known` holds
 };
 
 // Scratch of a frame. Of the arrays below only the first entries, one per force that acts, are ever set or
@@ -114,18 +128,6 @@ struct ActiveForces {  // NOLINT(cppcoreguidelines-pro-type-member-init)
     bool sprung = false;             ///< one of them has a spring
     bool noisy = false;              ///< one of them makes a noise
 };
-
-namespace kernels {
-
-/// Rows that touch a string, and what the string does under them: the first `count` of each array are set.
-struct TouchedRows {  // NOLINT(cppcoreguidelines-pro-type-member-init)
-    std::size_t count = 0;
-    std::array<const double*, voice_forces> row;
-    std::array<double, voice_forces> middle;  ///< row (q - lag v)
-    std::array<double, voice_forces> rise;    ///< its change over the frame in free flight
-};
-
-}  // namespace kernels
 
 /// What the touches answer to what is not known yet: force_i = alone_i + by_exciter_i F_exciter + by_bridge_i
 /// zeta, zeta the bridge's mean displacement.

@@ -168,6 +168,7 @@ Result<StoppedStringModel> compile_stopped(const InstrumentDescription& instrume
     stopped.wave_impedance_kg_per_s = std::sqrt(modes.tension_N * description.linear_density_kg_per_m);
     set_retuning_tables(stopped);
     set_output_rows(stopped, instrument, model.output_rate_hz);
+    if (instrument.bridge) set_end_bounds(stopped);
     if (instrument.bridge)
         stopped.bridge_stiffness_N_per_m =
             end_stiffness(stopped.string, stopped.end_row.data(), modes.tension_N, 1);

@@ -15,6 +15,8 @@ struct BridgeEndModel {
     const double* row = nullptr;   ///< b, StringShape::stride long [N m^(-3/2)]
     double rest_N = 0;             ///< b . q at rest [N]
     double stiffness_N_per_m = 0;  ///< kappa: what the end resists if the modes stand still [N/m]
+    double root = 0;               ///< StoppedStringModel::end_root, with the growth of a bend [J^(1/2)/m]
+    double strength = 0;           ///< StoppedStringModel::end_strength, with the growth of a bend [N/m]
 };
 
 /// Begins a frame: moves the touches on, and finds what the voice answers to the bridge.

@@ -1,11 +1,15 @@
 #include "instrument/voice/bridge_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "instrument/voice/oscillator.h"
 
 namespace jawari {
 namespace {
+
+/// Bounds are widened by rounding.
+constexpr double bounds_margin = 1 + 1e-9;
 
 void append_mode(BridgeModel& bridge, const InstrumentDescription& instrument,
                  const BodyModeDescription& mode, double output_rate_hz) {
@@ -89,6 +93,26 @@ double end_stiffness(const StringModel& model, const double* end_row, double ten
         sum += end_row[k] * end_row[k] / (2 * model.tuning.potential[k]);
     // The coupling multiplies it by growth^2, the tension has grown once.
     return sum + tension_N / (growth * model.shape->length_m);
+}
+
+void set_end_bounds(StoppedStringModel& stopped) {
+    const StringModel& model = stopped.string;
+    const std::size_t modes = model.shape->stride;
+    const double lag = model.shape->step_s / 2;
+    double energy_J = 0, kicks = 0, point_kicks = 0;
+    for (std::size_t k = 0; k < modes; ++k) {
+        const double q = model.tuning.flight.q_held[k] * stopped.end_row[k];
+        const double v = model.tuning.flight.v_held[k] * stopped.end_row[k];
+        const double w = q - lag * v;
+        energy_J += model.tuning.kinetic[k] * v * v + model.tuning.potential[k] * w * w;
+        if (model.tuning.certificate.kick.empty()) continue;
+        kicks += model.tuning.certificate.kick[k] * std::abs(stopped.end_row[k]);
+        point_kicks += model.tuning.certificate.kick[k];
+    }
+    stopped.end_root = bounds_margin * std::sqrt(energy_J);
+    // A point force of 1 N moves mode k by sqrt(2/L) at most.
+    const double shape = std::sqrt(2 / model.shape->length_m);
+    stopped.end_strength = point_kicks > 0 ? bounds_margin * kicks / (shape * point_kicks) : 0.0;
 }
 
 }  // namespace jawari

@@ -29,6 +29,9 @@ double body_energy(const BridgeModel& bridge, const BridgeState& state) JAWARI_R
 double end_stiffness(const StringModel& model, const double* end_row, double tension_N,
                      double growth) JAWARI_REALTIME;
 
+/// StoppedStringModel::end_root and end_strength.
+void set_end_bounds(StoppedStringModel& stopped);
+
 inline bool bridge_moves(const InstrumentModel& model) {
     return model.bridge.count > 0;
 }

@@ -12,7 +12,8 @@ namespace jawari {
 namespace {
 
 BridgeEndModel end_model(const StoppedStringModel& stopped, const Voice& voice) {
-    return {stopped.end_row.data(), stopped.end_rest_N, voice.end.stiffness_N_per_m};
+    return {stopped.end_row.data(), stopped.end_rest_N, voice.end.stiffness_N_per_m,
+            voice.bend.active ? -1.0 : stopped.end_root, stopped.end_strength};
 }
 
 Voice& voice_of(InstrumentState& state, const VoiceOnBridge& on_bridge) {

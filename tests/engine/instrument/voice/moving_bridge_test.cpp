@@ -236,15 +236,17 @@ TEST(MovingBridge, HasTheEigenmodesOfTheWhole) {
     RecordProperty("worst_decay", std::to_string(worst.decay));
 }
 
-/// One string with the body sounds its note, by the eigenvalues of both: the partial near it, or the two that
-/// a resonance of the body near it makes of it.
+/// One string with the body sounds its note, by the eigenvalues of both. Resonances within a semitone are
+/// moved away: they make two partials of one and keep both off the note, as a wolf does.
 TEST(MovingBridge, TheFirstPartialWithTheBodyIsTheNote) {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         InstrumentDescription instrument = random_instrument(seed);
         instrument.strings.resize(1);
         for (auto& mode : instrument.body) {
             mode.shape.resize(1);
-            mode.mass_kg += 0.5;  // lighter ones keep partials off their resonance, as a wolf does
+            const double cents =
+                1200 * std::log2(mode.frequency_hz / instrument.strings[0].open_frequency_hz);
+            if (std::abs(cents) < 100) mode.frequency_hz *= 1.2;
         }
         const auto compiled = compile_instrument(instrument, rate_hz);
         ASSERT_TRUE(compiled.ok());
