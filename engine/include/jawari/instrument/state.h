@@ -197,11 +197,17 @@ struct BridgeState {
     std::uint64_t nonfinite_resets = 0;  ///< times it was put to rest because its state was not finite
 
     // -- the system of a frame: (2/y_held + sum_i couplings_i shape_i shape_i') delta = right
-    std::vector<double> couplings;      ///< weight^2 stiffness of each voice as in `matrix`, 0: none [N/m]
-    AlignedVector<double> matrix;       ///< modes x stride, lower triangle [N/m]
-    AlignedVector<double> factor;       ///< its Cholesky factor, and the diagonal's inverses behind it
-    bool stale = true;                  ///< `matrix` must be summed anew
-    bool summed = false;                ///< `matrix` has not been updated since it was summed
+    std::vector<double> couplings;  ///< weight^2 stiffness of each voice as in `matrix`, 0: none [N/m]
+    AlignedVector<double> matrix;   ///< modes x stride, lower triangle [N/m]
+    AlignedVector<double> factor;   ///< its Cholesky factor, and the diagonal's inverses behind it
+    bool stale = true;              ///< `matrix` must be summed anew
+    bool summed = false;            ///< `matrix` has not been updated since it was summed
+    /// The same by voices, where they are fewer than modes: what `factor` was made of, weight and stiffness
+    /// of each.
+    std::vector<double> factorised;
+    AlignedVector<double> pull;         ///< force of each voice, in the mean of the frame [N]
+    AlignedVector<double> under_start;  ///< displacement under each string at the frame's start [m]
+    AlignedVector<double> under_mean;   ///< its mean over the frame in free motion [m]
     AlignedVector<double> mean;         ///< mean displacement in the frame [m]
     AlignedVector<double> force_N;      ///< held in the frame [N]
     AlignedVector<double> path;         ///< change of y over the frame [m]

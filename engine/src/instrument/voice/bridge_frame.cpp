@@ -18,6 +18,8 @@ constexpr double still_J = 1e-30;
 /// Contacts change a body's speed by this share at least and at most of what the force that they add would
 /// do.
 constexpr double least_share = -1, largest_share = 3;
+/// More than any weight: string and weight as one number.
+constexpr double distinct_weights = 1e6;
 
 const double* shape_under(const BridgeModel& bridge, std::size_t s) {
     return bridge.shape.data() + s * bridge.stride;
@@ -91,8 +93,8 @@ bool update_matrix(const BridgeModel& bridge, BridgeState& state) {
 
 /// Cholesky's factor L of the matrix, row by row; the diagonal holds 1/L_ii. The matrix is positive definite:
 /// 2/y_held > 0, and no voice's stiffness is negative.
-void factorise(const BridgeModel& bridge, BridgeState& state) {
-    for (std::size_t i = 0; i < bridge.count; ++i) {
+void factorise(const BridgeModel& bridge, BridgeState& state, std::size_t order) {
+    for (std::size_t i = 0; i < order; ++i) {
         const double* from = state.matrix.data() + i * bridge.stride;
         double* row = state.factor.data() + i * bridge.stride;
         for (std::size_t j = 0; j < i; ++j) {
@@ -104,12 +106,12 @@ void factorise(const BridgeModel& bridge, BridgeState& state) {
 }
 
 /// x <- the solution for the right side x.
-void solve(const BridgeModel& bridge, const BridgeState& state, double* x) {
-    for (std::size_t i = 0; i < bridge.count; ++i) {
+void solve(const BridgeModel& bridge, const BridgeState& state, std::size_t order, double* x) {
+    for (std::size_t i = 0; i < order; ++i) {
         const double* row = state.factor.data() + i * bridge.stride;
         x[i] = (x[i] - product(i, row, x)) * row[i];
     }
-    for (std::size_t i = bridge.count; i-- > 0;) {
+    for (std::size_t i = order; i-- > 0;) {
         const double* row = state.factor.data() + i * bridge.stride;
         x[i] *= row[i];
         for (std::size_t j = 0; j < i; ++j) x[j] -= row[j] * x[i];
@@ -121,10 +123,10 @@ void prepare_system(const BridgeModel& bridge, BridgeState& state, std::uint64_t
         sum_matrix(bridge, state);
         state.stale = false;
         state.summed = true;
-        factorise(bridge, state);
+        factorise(bridge, state, bridge.count);
     } else if (update_matrix(bridge, state)) {
         state.summed = false;
-        factorise(bridge, state);
+        factorise(bridge, state, bridge.count);
     }
 }
 
@@ -149,7 +151,7 @@ void strike_all(const InstrumentModel& model, InstrumentState& state) {
         Voice& struck = state.strings[voice.string].voices[voice.voice];
         std::fill(bridge.solution.begin(), bridge.solution.end(), 0.0);
         add_pull(model.bridge, voice, voice.frame.by_exciter, bridge.solution.data());
-        solve(model.bridge, bridge, bridge.solution.data());
+        solve(model.bridge, bridge, model.bridge.count, bridge.solution.data());
         const double zeta_m = under_voice(model.bridge, voice, bridge.mean.data());
         const double per_N = under_voice(model.bridge, voice, bridge.solution.data());
         voice.frame.exciter_N = strike_on_bridge(voice_model(string_of(model, state, voice.string), struck),
@@ -160,10 +162,110 @@ void strike_all(const InstrumentModel& model, InstrumentState& state) {
     }
 }
 
-bool is_finite(const AlignedVector<double>& x) {
-    double sum = 0;
-    for (const double value : x) sum += value;
-    return std::isfinite(sum);
+/// The system over the body's modes: delta = mean - free mean.
+void solve_by_modes(const InstrumentModel& model, InstrumentState& instrument) {
+    const BridgeModel& bridge = model.bridge;
+    BridgeState& state = instrument.bridge;
+    state.factorised[0] = 0;
+    prepare_system(bridge, state, instrument.frame);
+    std::fill(state.solution.begin(), state.solution.end(), 0.0);
+    for (std::size_t i = 0; i < state.voice_count; ++i) {
+        const VoiceOnBridge& voice = state.voices[i];
+        if (voice.weight == 0) continue;
+        const double zeta_m = voice.weight * state.under_mean[voice.string];
+        add_pull(bridge, voice, voice.frame.force_N - voice.frame.stiffness_N_per_m * zeta_m,
+                 state.solution.data());
+    }
+    solve(bridge, state, bridge.count, state.solution.data());
+    for (std::size_t j = 0; j < bridge.count; ++j) state.mean[j] += state.solution[j];
+    strike_all(model, instrument);
+    for (std::size_t i = 0; i < state.voice_count; ++i) {
+        VoiceOnBridge& voice = state.voices[i];
+        const BridgeEndFrame& frame = voice.frame;
+        voice.zeta_m = voice.weight == 0 ? 0.0 : under_voice(bridge, voice, state.mean.data());
+        state.pull[i] =
+            frame.force_N + frame.by_exciter * frame.exciter_N - frame.stiffness_N_per_m * voice.zeta_m;
+    }
+}
+
+/// Whether the factor is that of the voices as they are; notes what they are.
+bool is_factorised(BridgeState& state) {
+    const auto order = static_cast<double>(state.voice_count);
+    bool same = state.factorised[0] == order;
+    state.factorised[0] = order;
+    for (std::size_t i = 0; i < state.voice_count; ++i) {
+        const VoiceOnBridge& voice = state.voices[i];
+        double* known = state.factorised.data() + 1 + 2 * i;
+        const double weight = voice.weight + static_cast<double>(voice.string) * distinct_weights;
+        same = same && known[0] == weight && known[1] == voice.frame.stiffness_N_per_m;
+        known[0] = weight;
+        known[1] = voice.frame.stiffness_N_per_m;
+    }
+    return same;
+}
+
+/// The system over the voices' forces F: (1/stiffness + weight receptance weight/2) F = force/stiffness -
+/// zeta of free motion. Its matrix is positive definite too.
+void prepare_voices(const BridgeModel& bridge, BridgeState& state) {
+    state.stale = true;  // the factor is no longer that of the modes
+    if (is_factorised(state)) return;
+    for (std::size_t i = 0; i < state.voice_count; ++i) {
+        const VoiceOnBridge& voice = state.voices[i];
+        double* row = state.matrix.data() + i * bridge.stride;
+        const double* receptance = bridge.receptance.data() + voice.string * bridge.string_stride;
+        for (std::size_t l = 0; l <= i; ++l)
+            row[l] = voice.weight * state.voices[l].weight * receptance[state.voices[l].string] / 2;
+        row[i] += 1 / voice.frame.stiffness_N_per_m;
+    }
+    factorise(bridge, state, state.voice_count);
+}
+
+/// What a newton of the exciter of voice i adds to the forces of all: state.solution.
+void answer_to_exciter(const BridgeModel& bridge, BridgeState& state, std::size_t i) {
+    const BridgeEndFrame& frame = state.voices[i].frame;
+    std::fill(state.solution.begin(), state.solution.end(), 0.0);
+    state.solution[i] = frame.by_exciter / frame.stiffness_N_per_m;
+    solve(bridge, state, state.voice_count, state.solution.data());
+}
+
+double zeta_of(const VoiceOnBridge& voice, double pull_N) {
+    const BridgeEndFrame& frame = voice.frame;
+    return (frame.force_N + frame.by_exciter * frame.exciter_N - pull_N) / frame.stiffness_N_per_m;
+}
+
+void strike_by_voices(const InstrumentModel& model, InstrumentState& instrument) {
+    BridgeState& state = instrument.bridge;
+    for (std::size_t i = 0; i < state.voice_count; ++i) {
+        VoiceOnBridge& voice = state.voices[i];
+        if (!voice.frame.active.excited) continue;
+        Voice& struck = instrument.strings[voice.string].voices[voice.voice];
+        const StringModel& string = voice_model(string_of(model, instrument, voice.string), struck);
+        double zeta_m = 0, per_N = 0;
+        if (voice.weight != 0) {
+            answer_to_exciter(model.bridge, state, i);
+            zeta_m = zeta_of(voice, state.pull[i]);
+            per_N = (voice.frame.by_exciter - state.solution[i]) / voice.frame.stiffness_N_per_m;
+        }
+        voice.frame.exciter_N = strike_on_bridge(string, struck.touches, voice.frame, zeta_m, per_N);
+        for (std::size_t l = 0; voice.weight != 0 && l < state.voice_count; ++l)
+            state.pull[l] += state.solution[l] * voice.frame.exciter_N;
+    }
+}
+
+void solve_by_voices(const InstrumentModel& model, InstrumentState& instrument) {
+    BridgeState& state = instrument.bridge;
+    prepare_voices(model.bridge, state);
+    for (std::size_t i = 0; i < state.voice_count; ++i) {
+        const VoiceOnBridge& voice = state.voices[i];
+        state.pull[i] = voice.frame.force_N / voice.frame.stiffness_N_per_m -
+                        voice.weight * state.under_mean[voice.string];
+    }
+    solve(model.bridge, state, state.voice_count, state.pull.data());
+    strike_by_voices(model, instrument);
+    for (std::size_t i = 0; i < state.voice_count; ++i) {
+        VoiceOnBridge& voice = state.voices[i];
+        voice.zeta_m = voice.weight == 0 ? 0.0 : zeta_of(voice, state.pull[i]);
+    }
 }
 
 /// The same of each string alone.
@@ -222,8 +324,17 @@ void settle_contacts(const BridgeModel& bridge, BridgeState& state) {
 }  // namespace
 
 void begin_bridge_frame(const BridgeModel& bridge, BridgeState& state) JAWARI_REALTIME {
-    for (std::size_t j = 0; j < bridge.count; ++j)
-        state.mean[j] = state.y[j] + ((bridge.yy[j] - 1) * state.y[j] + bridge.yv[j] * state.v[j]) / 2;
+    std::fill(state.under_start.begin(), state.under_start.end(), 0.0);
+    std::fill(state.under_mean.begin(), state.under_mean.end(), 0.0);
+    double *start = state.under_start.data(), *mean = state.under_mean.data();
+    for (std::size_t j = 0; j < bridge.count; ++j) {
+        const double y = state.y[j];
+        const double y_mean = y + ((bridge.yy[j] - 1) * y + bridge.yv[j] * state.v[j]) / 2;
+        const double* under = bridge.under.data() + j * bridge.string_stride;
+        state.mean[j] = y_mean;
+        for (std::size_t s = 0; s < bridge.string_stride; ++s) start[s] += under[s] * y;
+        for (std::size_t s = 0; s < bridge.string_stride; ++s) mean[s] += under[s] * y_mean;
+    }
 }
 
 void solve_bridge_frame(const InstrumentModel& model, InstrumentState& instrument) JAWARI_REALTIME {
@@ -231,27 +342,15 @@ void solve_bridge_frame(const InstrumentModel& model, InstrumentState& instrumen
     BridgeState& state = instrument.bridge;
     std::fill(state.force_N.begin(), state.force_N.end(), 0.0);
     if (state.voice_count == 0) return;
-    prepare_system(bridge, state, instrument.frame);
-    std::fill(state.solution.begin(), state.solution.end(), 0.0);
-    for (std::size_t i = 0; i < state.voice_count; ++i) {
-        const VoiceOnBridge& voice = state.voices[i];
-        if (voice.weight == 0) continue;
-        const double zeta_m = under_voice(bridge, voice, state.mean.data());
-        add_pull(bridge, voice, voice.frame.force_N - voice.frame.stiffness_N_per_m * zeta_m,
-                 state.solution.data());
+    if (state.voice_count <= bridge.count) {
+        solve_by_voices(model, instrument);
+    } else {
+        solve_by_modes(model, instrument);
     }
-    solve(bridge, state, state.solution.data());
-    for (std::size_t j = 0; j < bridge.count; ++j) state.mean[j] += state.solution[j];
-    strike_all(model, instrument);
-    if (!is_finite(state.mean)) std::fill(state.mean.begin(), state.mean.end(), 0.0);
     for (std::size_t i = 0; i < state.voice_count; ++i) {
         VoiceOnBridge& voice = state.voices[i];
-        const BridgeEndFrame& frame = voice.frame;
-        voice.zeta_m = voice.weight == 0 ? 0.0 : under_voice(bridge, voice, state.mean.data());
-        if (voice.weight == 0) continue;
-        add_pull(bridge, voice,
-                 frame.force_N + frame.by_exciter * frame.exciter_N - frame.stiffness_N_per_m * voice.zeta_m,
-                 state.force_N.data());
+        if (!std::isfinite(voice.zeta_m + state.pull[i])) voice.zeta_m = state.pull[i] = 0;
+        if (voice.weight != 0) add_pull(bridge, voice, state.pull[i], state.force_N.data());
     }
 }
 
@@ -280,10 +379,7 @@ void advance_body_of_string(const BridgeModel& bridge, BridgeState& state, std::
     double force_N = 0;
     for (std::size_t i = 0; i < state.voice_count; ++i) {
         const VoiceOnBridge& voice = state.voices[i];
-        if (voice.string != s || voice.weight == 0) continue;
-        const BridgeEndFrame& frame = voice.frame;
-        force_N += voice.weight * (frame.force_N + frame.by_exciter * frame.exciter_N -
-                                   frame.stiffness_N_per_m * voice.zeta_m);
+        if (voice.string == s) force_N += voice.weight * state.pull[i];
     }
     const double* shape = shape_under(bridge, s);
     for (std::size_t j = 0; j < bridge.count; ++j) {

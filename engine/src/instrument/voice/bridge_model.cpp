@@ -30,6 +30,22 @@ void append_mode(BridgeModel& bridge, const InstrumentDescription& instrument,
         bridge.shape[s * bridge.stride + j] = mode.shape.empty() ? 1.0 : mode.shape[s];
 }
 
+/// The tables by strings.
+void set_by_strings(BridgeModel& bridge, std::size_t strings) {
+    bridge.string_stride = padded(strings);
+    bridge.under.assign(bridge.count * bridge.string_stride, 0.0);
+    bridge.receptance.assign(strings * bridge.string_stride, 0.0);
+    for (std::size_t j = 0; j < bridge.count; ++j) {
+        for (std::size_t s = 0; s < strings; ++s) {
+            const double shape = bridge.shape[s * bridge.stride + j];
+            bridge.under[j * bridge.string_stride + s] = shape;
+            for (std::size_t t = 0; t < strings; ++t)
+                bridge.receptance[s * bridge.string_stride + t] +=
+                    bridge.y_held[j] * shape * bridge.shape[t * bridge.stride + j];
+        }
+    }
+}
+
 }  // namespace
 
 BridgeModel bridge_model(const InstrumentDescription& instrument, double output_rate_hz) {
@@ -45,6 +61,7 @@ BridgeModel bridge_model(const InstrumentDescription& instrument, double output_
         if (moves_bridge(instrument, mode) && is_audible(mode, output_rate_hz))
             append_mode(bridge, instrument, mode, output_rate_hz);
     }
+    set_by_strings(bridge, instrument.strings.size());
     return bridge;
 }
 
@@ -57,6 +74,10 @@ BridgeState make_bridge_state(const BridgeModel& bridge, std::size_t strings, st
     for (auto* array : {&state.y_of, &state.v_of}) array->assign(strings * bridge.stride, 0.0);
     state.couplings.assign(voices, 0.0);
     state.voices.resize(voices);
+    state.factorised.assign(1 + 2 * bridge.count, 0.0);
+    state.pull.assign(padded(voices), 0.0);
+    state.under_start.assign(bridge.string_stride, 0.0);
+    state.under_mean.assign(bridge.string_stride, 0.0);
     return state;
 }
 
@@ -76,6 +97,7 @@ void reset_bridge(BridgeState& state) JAWARI_REALTIME {
     state.nonfinite_resets = 0;
     state.stale = true;
     state.summed = false;
+    std::fill(state.factorised.begin(), state.factorised.end(), 0.0);
     state.voice_count = 0;
 }
 

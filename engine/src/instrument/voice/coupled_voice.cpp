@@ -45,7 +45,7 @@ void begin_coupled_frame(const InstrumentModel& model, InstrumentState& state,
     voice.end.weight = string.own_level * growth * fade_gain(model, voice);
     begin_end_frame(voice_model(string, voice), voice.string, voice.touches, end_model(stopped, voice),
                     on_bridge.frame);
-    const double bridge_m = bridge_under(model.bridge, state.bridge, on_bridge.string);
+    const double bridge_m = state.bridge.under_start[on_bridge.string];
     const double start_N = on_bridge.frame.start_N;
     const double given_J = coupling_energy(voice.end.weight, bridge_m, start_N, voice.end.stiffness_N_per_m) -
                            coupling_energy(before.weight, bridge_m, before.force_N, before.stiffness_N_per_m);
@@ -53,6 +53,9 @@ void begin_coupled_frame(const InstrumentModel& model, InstrumentState& state,
     const bool finite = std::isfinite(on_bridge.frame.force_N + on_bridge.frame.stiffness_N_per_m +
                                       on_bridge.frame.by_exciter);
     on_bridge.weight = finite ? voice.end.weight : 0.0;
+    if (finite) return;
+    on_bridge.frame.force_N = on_bridge.frame.by_exciter = 0;
+    on_bridge.frame.stiffness_N_per_m = 1;
 }
 
 void end_coupled_frame(const InstrumentModel& model, InstrumentState& state, VoiceOnBridge& on_bridge,
