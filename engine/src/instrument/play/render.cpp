@@ -13,6 +13,7 @@
 #include "instrument/play/strokes.h"
 #include "instrument/voice/body.h"
 #include "instrument/voice/bridge_model.h"
+#include "instrument/voice/coupled_voice.h"
 #include "instrument/voice/pickups.h"
 #include "instrument/voice/voice.h"
 
@@ -178,6 +179,11 @@ double string_energy(const InstrumentModel& model, InstrumentState& state,
         if (voice.phase != VoicePhase::Idle) sum += voice_energy(string_of(model, state, string), voice);
     }
     return sum;
+}
+
+double bridge_energy(const InstrumentModel& model, const InstrumentState& state) JAWARI_REALTIME {
+    if (!bridge_moves(model)) return 0;
+    return body_energy(model.bridge, state.bridge) + coupling_energy(model, state) + state.bridge.debt_J;
 }
 
 }  // namespace jawari

@@ -10,8 +10,6 @@
 #include <random>
 #include <vector>
 
-#include "instrument/voice/bridge_model.h"
-#include "instrument/voice/coupled_voice.h"
 #include "instrument/voice/voice.h"
 #include "jawari/instrument/compile.h"
 #include "jawari/instrument/render.h"
@@ -264,8 +262,7 @@ TEST(MovingBridge, TheFirstPartialWithTheBodyIsTheNote) {
 }
 
 double whole_energy(const InstrumentModel& model, InstrumentState& state) {
-    double sum =
-        body_energy(model.bridge, state.bridge) + coupling_energy(model, state) + state.bridge.debt_J;
+    double sum = bridge_energy(model, state);
     for (std::size_t s = 0; s < model.strings.size(); ++s) sum += string_energy(model, state, s);
     return sum;
 }
