@@ -21,7 +21,9 @@ import keyboards  # noqa: E402
 import layout  # noqa: E402
 from levels import PHRASE_LUFS  # noqa: E402
 
-SCHEMA = "jawari.preset/2"
+SCHEMA, SCHEMA_OF_BRIDGES = "jawari.preset/2", "jawari.preset/3"  # the latter where the bridge moves
+# Under docs/examples/render: what a preset may have and no built-in one has. Fitted and as loud as the preset behind it.
+EXAMPLES = {"coupled-guitar": (guitars.coupled, "guitar-nylon")}
 INSTRUMENTS = {**basses.INSTRUMENTS, **guitars.INSTRUMENTS, **eastern.INSTRUMENTS, **keyboards.INSTRUMENTS}
 # Chosen so that the same phrase is equally loud on all: scripts/voice.py PROGRAM --gains prints them. The sitar is 0.8 dB below that,
 # as far as its loudest chord demands; the tanpura 0.8 dB above, as its chord is the softest.
@@ -32,20 +34,24 @@ GAIN = {
 GAIN_SOURCE = f"chosen: the same phrase has {PHRASE_LUFS:g} LUFS on every preset (scripts/voice.py --gains)"
 QUALITY_SOURCE = "chosen: a compromise of cost and of what ultrasonic modes add (scripts/preset_convergence.py)"
 ORDER = ["comment", "provenance", "gain", "contact_rate_min_hz", "mode_limit_hz", "studio", "law", "play", "frets", "obstacles", "soft_touches", "exciters", "hand",
-         "pickups", "body", "strings"]
+         "pickups", "bridge", "body", "strings"]
 
 
 def preset(name):
-    content = INSTRUMENTS[name]()
+    make, name = EXAMPLES.get(name, (INSTRUMENTS.get(name), name))
+    content = make()
     if "body" in content:
         content["body"] = body.fitted(name, content["body"])
+        if "bridge" in content:
+            content["body"] = body.moving(content["body"], *content.pop("masses"), strings=len(content["strings"]),
+                                          tilts=content.pop("tilts"))
         content["provenance"] = {**content.get("provenance", {}), "body": body.source(name, content.get("provenance", {})["body"])}
     content = body.coloured(name, content)
     content["strings"] = body.levelled(name, content["strings"])
     content["gain"] = GAIN[name]
     content["provenance"] = {"gain": GAIN_SOURCE, "contact_rate_min_hz": QUALITY_SOURCE, "mode_limit_hz": QUALITY_SOURCE,
                              **content.get("provenance", {})}
-    ordered = {"schema": SCHEMA, "name": content.pop("name")}
+    ordered = {"schema": SCHEMA_OF_BRIDGES if "bridge" in content else SCHEMA, "name": content.pop("name")}
     ordered.update((key, content.pop(key)) for key in ORDER if key in content)
     assert not content, f"{name}: {list(content)} have no place in the file"
     return layout.document(ordered)
@@ -54,11 +60,12 @@ def preset(name):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--check", action="store_true")
-    parser.add_argument("names", nargs="*", default=list(INSTRUMENTS))
+    parser.add_argument("names", nargs="*", default=[*INSTRUMENTS, *EXAMPLES])
     arguments = parser.parse_args()
     stale = []
     for name in arguments.names:
-        path = ROOT / "presets" / "instruments" / f"{name}.json"
+        folder = "docs/examples/render" if name in EXAMPLES else "presets/instruments"
+        path = ROOT / folder / f"{name}.json"
         text = preset(name)
         if arguments.check:
             if not path.exists() or path.read_text() != text:
@@ -66,7 +73,7 @@ def main():
         else:
             path.write_text(text)
     if stale:
-        sys.exit(f"make_presets.py: presets/instruments differs from scripts/instruments: {', '.join(stale)}")
+        sys.exit(f"make_presets.py: presets/instruments or docs/examples/render differ from scripts/instruments: {', '.join(stale)}")
 
 
 if __name__ == "__main__":

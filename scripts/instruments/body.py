@@ -109,6 +109,27 @@ def levelled(name, rows):
     return [{**row, "level": rounded(10 ** (levels[row["name"]] / 20), 3)} if row["name"] in levels else row for row in rows]
 
 
+# Where a bridge moves: the highest mode that moves it [Hz]. Above, the bridge's mass takes over, and modes only listen.
+MOVING_HZ = 2500
+
+
+def moving(modes, named_kg, plate_kg, strings, tilts):
+    """The modes up to MOVING_HZ with masses at the bridge and shapes along it. A mode's gain is its radiation per force on 1 kg; on its own
+    mass it moves less, and radiates as much. The named ones move the bridge as a whole and tilt it by `tilts`; those of the plate have a
+    tilt of their own."""
+    moved = []
+    for index, row in enumerate(modes):
+        if row["frequency_hz"] > MOVING_HZ:
+            moved.append(row)
+            continue
+        mass = named_kg[index] if index < len(named_kg) else plate_kg
+        tilt = tilts[index] if index < len(tilts) else 1.6 * (scattered(5 * index + 3) - 0.5)
+        shape = [rounded(1 + tilt * (2 * s / (strings - 1) - 1), 3) for s in range(strings)]
+        moved.append({**row, "gain_left": rounded(row["gain_left"] * mass, 3), "gain_right": rounded(row["gain_right"] * mass, 3),
+                      "mass_kg": mass, "shape": shape})
+    return moved
+
+
 # Classical guitar: first resonances in the order measured on many instruments (air near 100 Hz, first top plate near
 # 190 Hz: Christensen and Vistisen, JASA 68 (1980); Wright, thesis, Cardiff (1996)); these very numbers are chosen.
 CLASSICAL_GUITAR = body([(98, 15, 1.0), (187, 18, 1.3), (232, 25, 0.5), (290, 30, 0.35), (385, 30, 0.5), (475, 30, 0.3)],
@@ -116,6 +137,10 @@ CLASSICAL_GUITAR = body([(98, 15, 1.0), (187, 18, 1.3), (232, 25, 0.5), (290, 30
 # Dreadnought, X-braced: larger and stiffer; chosen likewise.
 STEEL_GUITAR = body([(102, 18, 1.0), (193, 22, 1.3), (234, 28, 0.5), (330, 32, 0.4), (392, 35, 0.5), (480, 35, 0.3)],
                     (520, 48, 2500, 0.024, 0.16, 3500))
+# Masses at the bridge: of the order that makes the peaks of the bridge's mobility 0.02 to 0.1 s/kg, and its mean above 500 Hz 1/(4 m df), df
+# the modes' spacing. Chosen.
+GUITAR_KG = [0.35, 0.15, 0.4, 0.35, 0.3, 0.4]
+GUITAR_TILTS = [0, 0.1, 0.9, 0.3, -0.5, 0.4]
 # Gourd and thin wooden face (sitar, tanpura): chosen.
 SITAR = body([(108, 12, 0.5), (196, 16, 1.0), (287, 20, 0.8), (420, 22, 0.7)], (480, 62, 2500, 0.030, 0.25, 4500))
 TANPURA = body([(92, 12, 0.7), (168, 16, 1.0), (243, 20, 0.8), (360, 22, 0.7)], (420, 58, 2500, 0.028, 0.25, 4500))

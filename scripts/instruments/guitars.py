@@ -72,6 +72,13 @@ def nylon():
     }
 
 
+def coupled():
+    """The classical guitar on a bridge that moves: an example, no preset."""
+    return {**nylon(), "name": "Classical guitar on a moving bridge",
+            "comment": ["The classical guitar with the body's modes up to 2.5 kHz on the bridge: strings drive each other, open ones ring along."],
+            "bridge": {"open_strings": True}, "masses": (body.GUITAR_KG, 0.45), "tilts": body.GUITAR_TILTS}
+
+
 def electric():
     length = strings.ELECTRIC_GUITAR_LENGTH_M
     rows = strings.guitar(strings.ELECTRIC_SET, length, [10, 10, 9, 8, 7, 6], 1.0)

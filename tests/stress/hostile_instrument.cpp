@@ -118,6 +118,25 @@ void add_noises(Dice& dice, InstrumentDescription& instrument) {
     instrument.hand.release_noise_s = dice.spread(0.001, 1);
 }
 
+/// Drawn last of all, likewise. Bodies of a gram to ten kilograms, resonances wherever they are.
+void move_bridge(Dice& dice, InstrumentDescription& instrument) {
+    if (!dice.chance(0.5)) return;
+    if (instrument.body.empty())
+        instrument.body = {{.frequency_hz = 100, .t60_s = 0.2, .gain_left = 0.1, .gain_right = 0.1},
+                           {.frequency_hz = 400, .t60_s = 0.1, .gain_left = 0.1, .gain_right = -0.1}};
+    instrument.bridge = BridgeDescription{.open_strings = dice.chance(0.7)};
+    std::size_t moving = 0;
+    for (BodyModeDescription& mode : instrument.body) {
+        if (moving == limits::moving_body_modes || (moving > 0 && dice.chance(0.3))) continue;
+        ++moving;
+        mode.mass_kg = dice.spread(1e-3, 10);
+        if (dice.chance(0.3)) continue;
+        for (std::size_t s = 0; s < instrument.strings.size(); ++s) mode.shape.push_back(dice.uniform(-2, 2));
+    }
+    for (std::size_t s = 1; s < instrument.strings.size(); ++s)
+        instrument.strings[s].sympathetic = dice.chance(0.1) && !instrument.strings[s].course;
+}
+
 /// Few modes and steps, so that compiling and playing take milliseconds.
 QualityDescription choose_quality(const InstrumentDescription& instrument, double output_rate_hz,
                                   Dice& dice) {
@@ -180,6 +199,7 @@ HostileInstrument make_hostile_instrument(const PresetShelf& shelf, std::uint64_
     if (dice.chance(0.3))
         hostile.lower = {lowered(instrument.quality, 0.5), lowered(instrument.quality, 0.2)};
     if (warped) add_noises(dice, instrument);
+    move_bridge(dice, instrument);
     return hostile;
 }
 

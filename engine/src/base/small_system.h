@@ -1,4 +1,4 @@
-// Gaussian elimination for a handful of unknowns and up to two right sides, for matrices I + D G with D
+// Gaussian elimination for a handful of unknowns and up to three right sides, for matrices I + D G with D
 // diagonal, D >= 0, and G symmetric positive semidefinite. Their pivots are those of I + sqrt(D) G sqrt(D),
 // at least 1: rows need not be exchanged.
 #pragma once
@@ -13,7 +13,7 @@ namespace jawari {
 template <std::size_t N>
 struct SmallSystem {  // NOLINT(cppcoreguidelines-pro-type-member-init)
     std::array<std::array<double, N>, N> matrix;
-    std::array<std::array<double, 2>, N> right;  ///< becomes the solutions
+    std::array<std::array<double, 3>, N> right;  ///< becomes the solutions
 };
 
 /// The first n <= N rows and columns, the first `sides` right sides.

@@ -58,6 +58,9 @@ QuadraticLoss loss_through(const DecayTimePoints& decay, const PhysicalModes& mo
     return {sigma1 - s1 * square(k1), s1};
 }
 
+/// Of a mode's losses that is its own, whatever it loses elsewhere.
+constexpr double least_own_share = 0.1;
+
 Modes physical_modes(const StringDescription& string, const PhysicalModes& physical) {
     const double f0 = std::sqrt(physical.tension_N / string.linear_density_kg_per_m) / (2 * string.length_m);
     QuadraticLoss quadratic;
@@ -73,6 +76,10 @@ Modes physical_modes(const StringDescription& string, const PhysicalModes& physi
             modes.sigma.push_back(valette_decay(*valette, string, physical, k * f0, fk));
         } else {
             modes.sigma.push_back(quadratic.s0 + quadratic.s1 * k * k);
+        }
+        if (i < physical.lost_elsewhere_per_s.size()) {
+            double& sigma = modes.sigma.back();
+            sigma = std::max(least_own_share * sigma, sigma - physical.lost_elsewhere_per_s[i]);
         }
     }
     return modes;

@@ -142,6 +142,22 @@ std::string strings_table(const PresetSurvey& survey) {
     return text;
 }
 
+std::size_t moving_modes(const InstrumentDescription& instrument) {
+    if (!instrument.bridge) return 0;
+    return static_cast<std::size_t>(std::count_if(instrument.body.begin(), instrument.body.end(),
+                                                  [](const auto& mode) { return mode.mass_kg > 0; }));
+}
+
+/// What a moving bridge couples.
+std::string bridge_text(const InstrumentDescription& instrument) {
+    std::string text = formatted(", %zu of them move the bridge under all strings", moving_modes(instrument));
+    if (instrument.bridge->open_strings) text += "; open strings ring along";
+    const auto sympathetic = std::count_if(instrument.strings.begin(), instrument.strings.end(),
+                                           [](const auto& string) { return string.sympathetic; });
+    if (sympathetic > 0) text += formatted("; %td sympathetic strings", sympathetic);
+    return text;
+}
+
 std::string players_text(const InstrumentDescription& instrument) {
     std::string text = "articulations";
     for (std::size_t i = 0; i < instrument.exciters.size(); ++i) {
@@ -156,6 +172,7 @@ std::string players_text(const InstrumentDescription& instrument) {
         if (pickup.quantity != PickupQuantity::BridgeForce) text += ", " + place_text(pickup.place);
     }
     if (!instrument.body.empty()) text += formatted("\nbody\n  %zu resonances", instrument.body.size());
+    if (instrument.bridge) text += bridge_text(instrument);
     return text + "\n";
 }
 
@@ -197,6 +214,7 @@ std::string survey_json(const PresetSurvey& survey) {
                  {"exciters", exciters_json(instrument)},
                  {"pickups", pickups_json(instrument)},
                  {"body_modes", instrument.body.size()},
+                 {"modes_that_move_the_bridge", moving_modes(instrument)},
                  {"quality",
                   {{"quality", survey.quality},
                    {"mode_limit_hz", instrument.quality.mode_limit_hz},

@@ -28,7 +28,8 @@ PickupDescription read_pickup(const json::Value& value, const std::string& path,
 
 BodyModeDescription read_body_mode(const json::Value& value, const std::string& path,
                                    json::Problems& problems) {
-    Section reader(value, path, {"frequency_hz", "t60_s", "quality_factor", "gain_left", "gain_right"},
+    Section reader(value, path,
+                   {"frequency_hz", "t60_s", "quality_factor", "gain_left", "gain_right", "mass_kg", "shape"},
                    problems);
     BodyModeDescription mode;
     mode.frequency_hz = reader.number("frequency_hz");
@@ -44,7 +45,16 @@ BodyModeDescription read_body_mode(const json::Value& value, const std::string& 
     }
     mode.gain_left = reader.number("gain_left");
     mode.gain_right = reader.number_or("gain_right", mode.gain_left);
+    if (reader.has("mass_kg")) mode.mass_kg = reader.number("mass_kg", {1e-4, 1e4});
+    if (reader.has("shape")) mode.shape = reader.numbers("shape", limits::instrument_strings);
     return mode;
+}
+
+BridgeDescription read_bridge(const json::Value& value, const std::string& path, json::Problems& problems) {
+    Section reader(value, path, {"open_strings"}, problems);
+    BridgeDescription bridge;
+    bridge.open_strings = reader.flag_or("open_strings", bridge.open_strings);
+    return bridge;
 }
 
 }  // namespace jawari::host::preset

@@ -1,4 +1,4 @@
-// `pickups` and `body` of a preset.
+// `pickups`, `body` and `bridge` of a preset.
 #pragma once
 
 #include <string>
@@ -11,5 +11,6 @@ namespace jawari::host::preset {
 PickupDescription read_pickup(const json::Value& value, const std::string& path, json::Problems& problems);
 BodyModeDescription read_body_mode(const json::Value& value, const std::string& path,
                                    json::Problems& problems);
+BridgeDescription read_bridge(const json::Value& value, const std::string& path, json::Problems& problems);
 
 }  // namespace jawari::host::preset

@@ -17,20 +17,31 @@ namespace {
 using json::Problems;
 using json::Value;
 
-constexpr std::string_view schema = "jawari.preset/2";
+constexpr std::string_view schema = "jawari.preset/3";
+/// The one before: without bridges that move.
+constexpr std::string_view earlier_schema = "jawari.preset/2";
 
 /// First of all, so that a file of another kind is called that and not blamed for its keys.
 void check_schema(const Value& document, Problems& problems) {
     const auto* object = std::get_if<json::Object>(&document.content);
     if (object == nullptr) return;
     const Value* value = json::find(*object, "schema");
-    const std::string expected = '"' + std::string(schema) + '"';
+    const std::string expected = '"' + std::string(schema) + "\" or \"" + std::string(earlier_schema) + '"';
     if (value == nullptr) {
         problems.add("schema", "missing", expected);
         return;
     }
     const auto* text = std::get_if<std::string>(&value->content);
-    if (text == nullptr || *text != schema) problems.add("schema", json::describe(*value), expected);
+    if (text == nullptr || (*text != schema && *text != earlier_schema))
+        problems.add("schema", json::describe(*value), expected);
+}
+
+/// Whether the document is of the schema before.
+bool is_earlier(const Value& document) {
+    const auto* object = std::get_if<json::Object>(&document.content);
+    const Value* value = object == nullptr ? nullptr : json::find(*object, "schema");
+    const auto* text = value == nullptr ? nullptr : std::get_if<std::string>(&value->content);
+    return text != nullptr && *text == earlier_schema;
 }
 
 QualityDescription read_quality(const Value& value, const std::string& path, Problems& problems) {
@@ -57,11 +68,11 @@ void read_general(preset::Section& reader, InstrumentDescription& instrument) {
 
 InstrumentDescription read_document(const Value& document, Problems& problems) {
     check_schema(document, problems);
-    preset::Section reader(
-        document, "",
-        {"schema", "name", "gain", "contact_rate_min_hz", "mode_limit_hz", "studio", "law", "play",
-         "contacts", "frets", "obstacles", "soft_touches", "exciters", "hand", "pickups", "body", "strings"},
-        problems);
+    preset::Section reader(document, "",
+                           {"schema", "name", "gain", "contact_rate_min_hz", "mode_limit_hz", "studio", "law",
+                            "play", "contacts", "frets", "obstacles", "soft_touches", "exciters", "hand",
+                            "pickups", "body", "bridge", "strings"},
+                           problems);
     InstrumentDescription instrument;
     read_general(reader, instrument);
     if (const Value* frets = reader.find("frets"))
@@ -75,6 +86,13 @@ InstrumentDescription read_document(const Value& document, Problems& problems) {
         instrument.hand = preset::read_hand(*hand, reader.path_of("hand"), problems);
     instrument.pickups = preset::read_list_or_empty(reader, "pickups", limits::pickups, preset::read_pickup);
     instrument.body = preset::read_list_or_empty(reader, "body", limits::body_modes, preset::read_body_mode);
+    if (const Value* bridge = reader.find("bridge")) {
+        if (is_earlier(document)) {
+            problems.add("bridge", "in a preset of " + std::string(earlier_schema),
+                         "in one of " + std::string(schema));
+        }
+        instrument.bridge = preset::read_bridge(*bridge, reader.path_of("bridge"), problems);
+    }
     instrument.strings =
         preset::read_list(reader, "strings", limits::instrument_strings, preset::read_string);
     return instrument;

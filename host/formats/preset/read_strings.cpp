@@ -35,11 +35,11 @@ FretsDescription read_frets(const Value& value, const std::string& path, Problem
 }
 
 InstrumentStringDescription read_string(const Value& value, const std::string& path, Problems& problems) {
-    Section reader(
-        value, path,
-        {"name", "open_note", "open_frequency_hz", "length_m", "linear_density_kg_per_m", "inharmonicity",
-         "damping", "level", "excitation", "pan", "course", "frets", "exciter_place", "release_t60_s"},
-        problems);
+    Section reader(value, path,
+                   {"name", "open_note", "open_frequency_hz", "length_m", "linear_density_kg_per_m",
+                    "inharmonicity", "damping", "level", "excitation", "pan", "course", "frets",
+                    "exciter_place", "release_t60_s", "sympathetic"},
+                   problems);
     InstrumentStringDescription string;
     string.name = reader.text("name");
     string.open_note = static_cast<int>(reader.whole_number("open_note", 0, 127));
@@ -60,6 +60,7 @@ InstrumentStringDescription read_string(const Value& value, const std::string& p
     if (const Value* place = reader.find("exciter_place"))
         string.exciter_place = read_place(*place, reader.path_of("exciter_place"), problems);
     string.release_t60_s = reader.number_or("release_t60_s", string.release_t60_s);
+    string.sympathetic = reader.flag_or("sympathetic", string.sympathetic);
     return string;
 }
 

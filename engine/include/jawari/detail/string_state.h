@@ -148,7 +148,9 @@ struct ClearState {
     bool valid = false;         ///< it is so
     bool limits_valid = false;  ///< the limits hold for the obstacles' present heights
     double energy_J = 0;        ///< limit of the string's energy
-    double force_N = 0;         ///< limit of the strength of all passive forces together
+    double root =
+        0;  ///< bound of the root of the string's energy, with all that bounded forces gave [J^(1/2)]
+    double force_N = 0;  ///< limit of the strength of all passive forces together
 };
 
 /// The low modes advanced into the future, and the gaps they predict; forecast.h writes it.
@@ -248,7 +250,10 @@ struct ExcitationState {
     bool active = false;         ///< false: `held` is all zero
     bool ramps = false;
     bool passive = false;   ///< the forces take energy over every frame in which no contact acts
-    double strength_N = 0;  ///< sum of their sizes, if passive
+    double strength_N = 0;  ///< sum of their sizes, if passive or bounded
+    /// By how much the forces raise the root of the string's energy in the frame at most [J^(1/2)]; below 0:
+    /// unknown.
+    double root = -1;
 };
 
 struct StringState {

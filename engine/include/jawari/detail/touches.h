@@ -21,6 +21,8 @@ enum class TouchSlot : std::size_t {
 };
 /// Number of places for touches.
 inline constexpr std::size_t touch_slots = 7;
+/// Most forces that act on a voice together: all touches, the exciter, the moving bridge.
+inline constexpr std::size_t voice_forces = touch_slots + 2;
 
 /// Where a force acts over the current frame. With w = phi (q - h v/2) there:
 struct TouchedPoint {
@@ -86,15 +88,67 @@ struct ExciterState {
     TouchedPoint point;
 };
 
+namespace kernels {
+
+/// Rows that touch a string, and what the string does under them: the first `count` of each array are set.
+struct TouchedRows {  // NOLINT(cppcoreguidelines-pro-type-member-init)
+    std::size_t count = 0;
+    std::array<const double*, voice_forces> row;
+    std::array<double, voice_forces> middle;  ///< row (q - lag v)
+    std::array<double, voice_forces> rise;    ///< its change over the frame in free flight
+};
+
+}  // namespace kernels
+
 /// All touches and the exciter of one voice.
 struct TouchState {
     std::array<Touch, touch_slots> touches;  ///< by TouchSlot
     ExciterState exciter;
-    /// G_ij = displacement at i at a frame's end per newton held at j [m/N]; the exciter is last.
-    std::array<double, (touch_slots + 1) * (touch_slots + 1)> compliance{};
-    bool outdated = true;         ///< compliance must be computed anew
-    std::uint64_t noises = 0;     ///< that have begun: no two are alike
-    AlignedVector<double> moved;  ///< scratch over modes
+    /// G_ij = displacement at i at a frame's end per newton held at j [m/N]; behind the touches the exciter,
+    /// then the bridge, whose "force" is its displacement [m] and whose "displacement" a force [N].
+    std::array<double, voice_forces * voice_forces> compliance{};
+    bool outdated = true;           ///< compliance must be computed anew
+    std::uint64_t noises = 0;       ///< that have begun: no two are alike
+    AlignedVector<double> moved;    ///< scratch over modes
+    kernels::TouchedRows known;     ///< of the coming frame on a moving bridge, unless `count` is 0
+    std::uint64_t known_frame = 0;  ///< StringState::frame for which `known` holds
+};
+
+// Scratch of a frame. Of the arrays below only the first entries, one per force that acts, are ever set or
+// read: this runs for every voice in every frame, and clearing them takes a tenth of its time.
+
+/// The touches and, if they act, the exciter and the moving bridge, in this order.
+struct ActiveForces {  // NOLINT(cppcoreguidelines-pro-type-member-init)
+    std::array<std::size_t, voice_forces> index;
+    std::size_t count = 0;
+    std::size_t touches = 0;         ///< those in front
+    bool excited = false;            ///< the exciter acts
+    const double* bridge = nullptr;  ///< row of a moving bridge, or none
+    std::size_t touched_modes = 0;   ///< that any of them reaches
+    bool sprung = false;             ///< one of them has a spring
+    bool noisy = false;              ///< one of them makes a noise
+};
+
+/// What the touches answer to what is not known yet: force_i = alone_i + by_exciter_i F_exciter + by_bridge_i
+/// zeta, zeta the bridge's mean displacement.
+struct TouchAnswer {  // NOLINT(cppcoreguidelines-pro-type-member-init): as far as it was asked for
+    std::array<double, touch_slots> alone;
+    std::array<double, touch_slots> by_exciter;
+    std::array<double, touch_slots> by_bridge;
+};
+
+/// A voice's frame on a moving bridge (docs/engine/model.md, "The moving bridge"). While the bridge is at
+/// zeta in the mean of the frame, the voice pulls at it by force_N + by_exciter F_exciter - stiffness zeta in
+/// the mean.
+struct BridgeEndFrame {  // NOLINT(cppcoreguidelines-pro-type-member-init)
+    ActiveForces active;
+    kernels::TouchedRows paths;  ///< of the active forces, the bridge last
+    TouchAnswer answer;
+    double start_N = 0;            ///< force at the frame's start [N]
+    double force_N = 0;            ///< mean force if the bridge rests and no exciter acts [N]
+    double stiffness_N_per_m = 0;  ///< by which the bridge's displacement lowers it [N/m]
+    double by_exciter = 0;         ///< by which a newton of the exciter raises it [1]
+    double exciter_N = 0;          ///< force of the exciter [N]
 };
 
 /// Energies that players have given to the strings since make_instrument_state() or reset() [J]. Those of
@@ -109,6 +163,9 @@ struct PlayerWork {
     /// the order of the step [J].
     double quality_changes_J = 0;
     double noises_J = 0;  ///< work of the noise of touches; that of a rough finger is in exciters_J [J]
+    /// Moving bridge: what voices that fade, rise, end or bend give to the coupling, and what a body whose
+    /// numbers were lost had [J].
+    double couplings_J = 0;
 };
 
 }  // namespace jawari

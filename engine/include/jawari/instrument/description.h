@@ -52,6 +52,8 @@ struct InstrumentStringDescription {
     std::optional<FretsDescription> frets;     ///< replaces the instrument's frets on this string
     std::optional<StringPlace> exciter_place;  ///< replaces the exciters' places on this string
     double release_t60_s = 0;  ///< replaces HandDescription::release_t60_s, 0.005 to 60 [s]; 0: does not
+    /// No key plays it; on a moving bridge it answers to others. It has no frets.
+    bool sympathetic = false;
 };
 
 // ---------------------------------------------------------------------------------------------- obstacles
@@ -195,13 +197,25 @@ struct PickupDescription {
     double quality_factor = 1;  ///< of that low pass: its gain at the resonance, 0.2 to 20
 };
 
-/// A resonance of the body, driven by the force on the bridge: a damped oscillator of 1 kg whose velocity is
-/// heard.
+/// A resonance of the body, driven by the force on the bridge: a damped oscillator whose velocity is heard.
 struct BodyModeDescription {
     double frequency_hz = 0;  ///< 5 to 20000 [Hz]
     double t60_s = 0;         ///< time of a decay by 60 dB, 1e-4 to 20 [s]
     double gain_left = 0;     ///< output on the left per velocity, -1e6 to 1e6 [s/m]
     double gain_right = 0;    ///< output on the right per velocity, -1e6 to 1e6 [s/m]
+    /// Of a mode that moves the bridge, 1e-4 to 1e4 [kg]; 0: it listens to the force on the bridge, as a mode
+    /// of 1 kg, and takes nothing. On a rigid bridge all do.
+    double mass_kg = 0;
+    /// Of a mode with mass: displacement of the bridge under each string per displacement of the mode, -100
+    /// to 100; empty: 1 under all.
+    std::vector<double> shape{};
+};
+
+/// The bridge moves with the body: strings drive the body, it drives them, and each string the others
+/// (docs/engine/model.md, "The moving bridge").
+struct BridgeDescription {
+    /// Open strings that nobody plays ring along, unless the parameter `open_strings` damps them.
+    bool open_strings = true;
 };
 
 /// How strings are given to notes; render_instrument() has the rules.
@@ -228,12 +242,14 @@ struct InstrumentDescription {
     PlayMode play = PlayMode::Keyboard;        ///< how strings are given to notes
     bool contacts = true;    ///< false: frets and obstacles are never struck, all else being equal
     FretsDescription frets;  ///< of strings that have none of their own
-    std::vector<ObstacleDescription> obstacles;        ///< at most limits::obstacles
-    std::vector<SoftTouchDescription> soft_touches;    ///< at most limits::soft_touches on a string
-    std::vector<ExciterDescription> exciters;          ///< 1 to limits::exciters
-    HandDescription hand;                              ///< damping, palm, legato
-    std::vector<PickupDescription> pickups;            ///< at most limits::pickups; none needs a body
-    std::vector<BodyModeDescription> body;             ///< at most limits::body_modes
+    std::vector<ObstacleDescription> obstacles;      ///< at most limits::obstacles
+    std::vector<SoftTouchDescription> soft_touches;  ///< at most limits::soft_touches on a string
+    std::vector<ExciterDescription> exciters;        ///< 1 to limits::exciters
+    HandDescription hand;                            ///< damping, palm, legato
+    std::vector<PickupDescription> pickups;          ///< at most limits::pickups; none needs a body
+    std::vector<BodyModeDescription> body;           ///< at most limits::body_modes
+    /// The bridge moves; body modes then have masses and shapes. Empty: it is rigid, and the body listens.
+    std::optional<BridgeDescription> bridge;
     std::vector<InstrumentStringDescription> strings;  ///< 1 to limits::instrument_strings
 
     /// Frequencies of the 128 MIDI notes from a tuning [Hz], NaN where no key is mapped. They set the pitch
@@ -253,6 +269,7 @@ inline constexpr std::size_t obstacle_points = 256;     ///< per obstacle
 inline constexpr std::size_t soft_touches = 2;          ///< per string
 inline constexpr std::size_t exciters = 16;             ///< per instrument
 inline constexpr std::size_t body_modes = 256;          ///< per instrument
+inline constexpr std::size_t moving_body_modes = 64;    ///< per instrument with a bridge that moves
 }  // namespace limits
 
 }  // namespace jawari

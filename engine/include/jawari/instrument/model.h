@@ -18,7 +18,9 @@ namespace jawari {
 /// the obstacles are its contacts, with heights relative to the line from the stop's top to the bridge. Its
 /// tension is the one at which the first partial is the note.
 struct StoppedStringModel {
-    int key = -1;  ///< MIDI note number; -1 if the tuning leaves it unmapped: `string` is empty then
+    /// MIDI note number; -1 if no key plays it, because the string is sympathetic, or because the tuning
+    /// leaves it unmapped: `string` is empty then.
+    int key = -1;
     double frequency_hz = 0;             ///< of the first partial [Hz]
     StringModel string;                  ///< the speaking length
     double inharmonicity = 0;            ///< B at this stop [1]
@@ -35,8 +37,18 @@ struct StoppedStringModel {
     /// [N m^(-3/2)].
     AlignedVector<double> pickup_rows;
     AlignedVector<double> bridge_row;  ///< force on the bridge = row . q [N m^(-3/2)]; empty without a body
-    std::vector<double> pickup_rest;   ///< pickup_rows . q at rest, one value for each pickup
-    double bridge_rest_N = 0;          ///< bridge_row . q at rest [N]
+    /// The same for a moving bridge, with what meeting it once a frame takes (allow_for_frames(),
+    /// pickups.cpp).
+    AlignedVector<double> end_row;
+    double end_rest_N = 0;  ///< end_row . q at rest [N]
+    /// What a metre of the bridge's displacement held over a frame does at most at the compiled tension:
+    /// raise the root of the string's energy by [J^(1/2)/m], bend the string as a point force of [N/m].
+    double end_root = 0, end_strength = 0;
+    /// kappa: what the end at a moving bridge resists while the modes stand still,
+    /// sum_k end_row_k^2/(mu omega_k^2) + T/L [N/m]; 0 if the bridge is rigid.
+    double bridge_stiffness_N_per_m = 0;
+    std::vector<double> pickup_rest;  ///< pickup_rows . q at rest, one value for each pickup
+    double bridge_rest_N = 0;         ///< bridge_row . q at rest [N]
 
     std::vector<double> full_force_N;  ///< for each exciter: a finger's force at velocity 1 [N], else 0
     std::vector<std::uint32_t> action_contacts;  ///< frets and neck, which the parameter `action` lowers
@@ -49,6 +61,8 @@ struct InstrumentStringModel {
     std::string name;            ///< of the description
     std::size_t course = 0;      ///< index into InstrumentModel::courses
     double level = 1;            ///< factor of the string's signals: its level times the instrument's gain
+    bool sympathetic = false;    ///< no key plays it
+    double own_level = 1;        ///< of the description, by which the string acts on a moving bridge
     double pan = 0;              ///< -1 left to 1 right
     double excitation = 1;       ///< factor of lifts and hammer speeds
     double release_t60_s = 0.1;  ///< 60 dB decay time under the damping hand [s]
@@ -82,6 +96,31 @@ struct BodyModel {
     std::size_t count = 0;  ///< number of modes; the arrays are padded
 };
 
+/// The body under a bridge that moves. Arrays over its modes, `stride` long. In a frame with the modal force
+/// F held, (y, v) at its end = [[yy, yv], [vy, vv]] (y, v) + (y_held, v_held) F.
+struct BridgeModel {
+    std::size_t count = 0;            ///< modes; 0: the bridge is rigid, and the body is in BodyModel
+    std::size_t stride = 0;           ///< padded(count)
+    AlignedVector<double> yy;         ///< free motion over one output frame: y from y
+    AlignedVector<double> yv;         ///< y from v [s]
+    AlignedVector<double> vy;         ///< v from y [1/s]
+    AlignedVector<double> vv;         ///< v from v
+    AlignedVector<double> y_held;     ///< y after a frame under 1 N [m/N]
+    AlignedVector<double> v_held;     ///< v after a frame under 1 N [m/(N s)]
+    AlignedVector<double> mass_kg;    ///< of each mode [kg]
+    AlignedVector<double> stiffness;  ///< mass omega^2 [N/m]
+    AlignedVector<double>
+        gain_left;  ///< output on the left per velocity [s/m], the instrument's gain included
+    AlignedVector<double> gain_right;  ///< output on the right per velocity [s/m]
+    AlignedVector<double> shape;       ///< under each string, strings x stride
+    std::size_t string_stride = 0;     ///< padded(strings)
+    AlignedVector<double> under;       ///< the same by modes, count x string_stride
+    /// Displacement under each string at a frame's end per newton held under each [m/N], strings x
+    /// string_stride.
+    AlignedVector<double> receptance;
+    bool open_strings = true;  ///< BridgeDescription::open_strings
+};
+
 /// A compiled instrument.
 struct InstrumentModel {
     std::string name;                          ///< of the description
@@ -99,11 +138,14 @@ struct InstrumentModel {
     /// is lower[n - 1], level 0 is `strings`.
     std::vector<std::vector<InstrumentStringModel>> lower;
     std::vector<CourseModel> courses;  ///< strings that sound together, each string in one course
-    BodyModel body;                    ///< resonances of the body
+    BodyModel body;                    ///< resonances of the body that listen
+    BridgeModel bridge;                ///< resonances of the body that move the bridge
 };
 
 /// A voice whose energy is below this share of the string's energy at full velocity is at rest (-150 dB).
 inline constexpr double rest_energy_ratio = 1e-15;
+/// The same of a string that answers, over that of one that is played: -120 dB of the loudest.
+inline constexpr double answer_energy_ratio = 1000;
 /// Time in which a voice fades that is taken away before it is at rest [s].
 inline constexpr double fade_s = 0.003;
 

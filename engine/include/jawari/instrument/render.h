@@ -56,4 +56,9 @@ void render_instrument(const InstrumentModel& model, InstrumentState& state,
 double string_energy(const InstrumentModel& model, InstrumentState& state,
                      std::size_t string) JAWARI_REALTIME;
 
+/// Energy of a moving bridge: of the body's modes, of the coupling, and what contacts have left unbalanced
+/// (BridgeState::debt_J) [J]; 0 if the bridge is rigid. With string_energy() of all strings it rises by no
+/// more than the work in InstrumentState::work. Threads: one at a time per state; realtime-safe.
+double bridge_energy(const InstrumentModel& model, const InstrumentState& state) JAWARI_REALTIME;
+
 }  // namespace jawari

@@ -21,17 +21,20 @@ namespace jawari {
 enum class VoicePhase {
     Idle,      ///< at rest, costs nothing
     Sounding,  ///< the string's note
-    Damped     ///< an earlier note, under the damping hand if there is one
+    Damped,    ///< an earlier note, under the damping hand if there is one
+    Answering  ///< an open string that nobody plays, which a moving bridge drives
 };
 
 /// A voice's own copy of its string, at another tension.
 struct BendState {
-    bool active = false;               ///< `model` is in force
-    double semitones = 0;              ///< bend in force
-    double target = 0;                 ///< where it goes [semitones]
-    StringModel model;                 ///< the string at that tension
-    AlignedVector<double> backward_q;  ///< StoppedStringModel::backward_q, of `model`
-    AlignedVector<double> backward_u;  ///< StoppedStringModel::backward_u, of `model`
+    bool active = false;                  ///< `model` is in force
+    double semitones = 0;                 ///< bend in force
+    double target = 0;                    ///< where it goes [semitones]
+    StringModel model;                    ///< the string at that tension
+    AlignedVector<double> backward_q;     ///< StoppedStringModel::backward_q, of `model`
+    AlignedVector<double> backward_u;     ///< StoppedStringModel::backward_u, of `model`
+    double growth = 1;                    ///< tension over compiled tension, if the bridge moves
+    double bridge_stiffness_N_per_m = 0;  ///< StoppedStringModel::bridge_stiffness_N_per_m, of `model`
 };
 
 /// A slide: the pitch glides to another fret's, which then takes over.
@@ -62,6 +65,15 @@ struct QualityRemainder {
     std::size_t frame = 0;  ///< index into InstrumentModel::fade_shape
 };
 
+/// A voice's end on a bridge that moves, as the last frame had it.
+struct BridgeEnd {
+    /// How the voice acts on the bridge: it feels weight times the bridge's displacement, and the bridge
+    /// weight times its force. Fades, the string's level and its tension are in it; 0: not at all.
+    double weight = 0;
+    double stiffness_N_per_m = 0;  ///< kappa at the voice's tension [N/m]
+    double force_N = 0;            ///< at the frame's end, before the weight [N]
+};
+
 /// One voice of one string: a motion from its excitation until it is at rest.
 struct Voice {
     VoicePhase phase = VoicePhase::Idle;  ///< what it is doing
@@ -77,6 +89,7 @@ struct Voice {
     std::size_t fade_frame = 0;           ///< index into InstrumentModel::fade_shape while fading
     std::size_t rise_frame = 0;           ///< of fading in after legato; at the shape's end: fully in
     QualityRemainder remainder;           ///< of the last change of quality level
+    BridgeEnd end;                        ///< on a bridge that moves
     VoiceGains gains;                     ///< in force; they follow `targets` smoothly
     VoiceGains targets;                   ///< set every 32 output frames from the channel's controls
 };
@@ -158,6 +171,54 @@ struct BodyState {
     std::uint64_t nonfinite_resets = 0;  ///< times it was put to rest because its state was not finite
 };
 
+/// A voice in the frame of a moving bridge: scratch.
+struct VoiceOnBridge {
+    std::size_t string = 0;  ///< index
+    std::size_t voice = 0;   ///< index of the string's voice
+    double weight = 0;       ///< BridgeEnd::weight in the frame; 0 also if its numbers are not finite
+    double zeta_m = 0;       ///< mean displacement of the bridge as the voice feels it [m]
+    double left_N = 0;       ///< by which contacts have changed the force at the frame's end [N]
+    BridgeEndFrame frame;    ///< what it answers
+};
+
+/// The body under a moving bridge, and what a frame needs to solve. Arrays over modes are BridgeModel::stride
+/// long.
+struct BridgeState {
+    AlignedVector<double> y;  ///< displacement of each mode [m]
+    AlignedVector<double> v;  ///< velocity of each mode [m/s]
+    /// What contacts within frames have left unbalanced so far; energy of strings, body and coupling plus
+    /// this obeys the balance [J].
+    double debt_J = 0;
+    double level = 0;                    ///< factor of what is heard, follows the controls of `channel`
+    int channel = 0;                     ///< of the last note
+    std::uint64_t answers_from = 0;      ///< output frame before which no open string begins to answer
+    bool ringing = false;                ///< not at rest
+    bool drives = false;                 ///< it moves enough for open strings to answer
+    std::uint64_t nonfinite_resets = 0;  ///< times it was put to rest because its state was not finite
+
+    // -- the system of a frame: (2/y_held + sum_i couplings_i shape_i shape_i') delta = right
+    std::vector<double> couplings;  ///< weight^2 stiffness of each voice as in `matrix`, 0: none [N/m]
+    AlignedVector<double> matrix;   ///< modes x stride, lower triangle [N/m]
+    AlignedVector<double> factor;   ///< its Cholesky factor, and the diagonal's inverses behind it
+    bool stale = true;              ///< `matrix` must be summed anew
+    bool summed = false;            ///< `matrix` has not been updated since it was summed
+    /// The same by voices, where they are fewer than modes: what `factor` was made of, weight and stiffness
+    /// of each.
+    std::vector<double> factorised;
+    AlignedVector<double> pull;         ///< force of each voice, in the mean of the frame [N]
+    AlignedVector<double> under_start;  ///< displacement under each string at the frame's start [m]
+    AlignedVector<double> under_mean;   ///< its mean over the frame in free motion [m]
+    AlignedVector<double> mean;         ///< mean displacement in the frame [m]
+    AlignedVector<double> force_N;      ///< held in the frame [N]
+    AlignedVector<double> path;         ///< change of y over the frame [m]
+    AlignedVector<double> solution;     ///< scratch
+    std::vector<VoiceOnBridge> voices;  ///< scratch, room for all
+    std::size_t voice_count = 0;        ///< voices of the frame
+    /// For outputs of strings: what of the body's motion each string has caused, strings x stride.
+    AlignedVector<double> y_of, v_of;
+    bool separates = false;  ///< outputs of strings are asked for
+};
+
 /// What the instrument has counted since make_instrument_state() or reset().
 struct InstrumentCounters {
     std::uint64_t notes = 0;          ///< excited
@@ -189,7 +250,8 @@ struct InstrumentState {
     std::vector<InstrumentStringState> strings;        ///< as InstrumentModel::strings
     std::vector<CourseState> courses;                  ///< as InstrumentModel::courses
     std::array<ChannelState, midi_channels> channels;  ///< controllers and parameters of each channel
-    BodyState body;                                    ///< resonances of the body
+    BodyState body;                                    ///< resonances of the body that listen
+    BridgeState bridge;                                ///< resonances of the body that move the bridge
     /// The body as each string alone drives it, for outputs of strings; empty without a body.
     std::vector<BodyState> string_bodies;
     std::uint64_t note_order = 0;     ///< HeldNote::order of the next note-on

@@ -52,6 +52,9 @@ struct PhysicalModes {
     double inharmonicity = 0;  ///< inharmonicity B, >= 0 [1]
     InharmonicityLaw inharmonicity_law = InharmonicityLaw::SquareRoot;  ///< of the partials
     std::variant<NoLoss, ValetteLoss, DecayTimePoints> damping;         ///< losses
+    /// Of those, what each mode loses to something that is computed beside the string, 0 or more [1/s]; a
+    /// tenth of a mode's losses stays its own. Empty: nothing.
+    std::vector<double> lost_elsewhere_per_s{};
 };
 
 /// Modes from two tables of equal length N, 1 to limits::modes.

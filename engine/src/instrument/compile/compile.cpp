@@ -15,6 +15,7 @@
 #include "instrument/touch/touches.h"
 #include "instrument/voice/bend.h"
 #include "instrument/voice/body.h"
+#include "instrument/voice/bridge_model.h"
 #include "instrument/voice/pickups.h"
 #include "jawari/instrument/compile.h"
 #include "jawari/instrument/model.h"
@@ -150,7 +151,8 @@ Result<StoppedStringModel> compile_stopped(const InstrumentDescription& instrume
         return stopped;
     }
     const FretsDescription& frets = frets_of(instrument, instrument.strings[index]);
-    stopped.key = instrument.strings[index].open_note + semitones_of(frets, fret);
+    if (!instrument.strings[index].sympathetic)
+        stopped.key = instrument.strings[index].open_note + semitones_of(frets, fret);
     std::string place = detail::indexed_place("strings", index);
     const StringDescription description = stopped_string(instrument, index, fret);
     const auto& modes = std::get<PhysicalModes>(description.modes);
@@ -166,6 +168,10 @@ Result<StoppedStringModel> compile_stopped(const InstrumentDescription& instrume
     stopped.wave_impedance_kg_per_s = std::sqrt(modes.tension_N * description.linear_density_kg_per_m);
     set_retuning_tables(stopped);
     set_output_rows(stopped, instrument, model.output_rate_hz);
+    if (instrument.bridge) set_end_bounds(stopped);
+    if (instrument.bridge)
+        stopped.bridge_stiffness_N_per_m =
+            end_stiffness(stopped.string, stopped.end_row.data(), modes.tension_N, 1);
     calibrate_exciters(stopped, model, model.strings[index]);
     find_action_contacts(stopped, instrument, index, fret);
     return stopped;
@@ -178,6 +184,8 @@ InstrumentStringModel string_without_stops(const InstrumentDescription& instrume
     InstrumentStringModel string;
     string.name = described.name;
     string.level = instrument.gain * described.level;
+    string.own_level = described.level;
+    string.sympathetic = described.sympathetic;
     string.pan = described.pan;
     string.excitation = described.excitation;
     string.release_t60_s =
@@ -209,7 +217,8 @@ void set_courses(InstrumentModel& model, const InstrumentDescription& instrument
 std::optional<Failure> compile_stops(InstrumentModel& model, const InstrumentDescription& instrument,
                                      std::size_t index) {
     InstrumentStringModel& string = model.strings[index];
-    const std::size_t frets = frets_of(instrument, instrument.strings[index]).count;
+    const InstrumentStringDescription& described = instrument.strings[index];
+    const std::size_t frets = described.sympathetic ? 0 : frets_of(instrument, described).count;
     for (std::size_t fret = 0; fret <= frets; ++fret) {
         auto stopped = compile_stopped(instrument, model, index, fret);
         if (!stopped) return stopped.failure();
@@ -244,6 +253,7 @@ Result<InstrumentModel> compile_instrument(const InstrumentDescription& instrume
     model.pickups = instrument.pickups;
     model.fade_shape = fade_shape(output_rate_hz);
     model.body = body_model(instrument, output_rate_hz);
+    model.bridge = bridge_model(instrument, output_rate_hz);
     for (std::size_t s = 0; s < instrument.strings.size(); ++s)
         model.strings.push_back(string_without_stops(instrument, s));
     set_courses(model, instrument);

@@ -79,6 +79,16 @@ Check validate_players(const InstrumentDescription& instrument, double shortest_
     return check_hand(instrument.hand, shortest_m);
 }
 
+Check check_shape(const std::string& place, const std::vector<double>& shape, std::size_t strings) {
+    if (!shape.empty() && shape.size() != strings)
+        return Failure{place, std::to_string(shape.size()) + " numbers",
+                       std::to_string(strings) + ", one for each string"};
+    for (std::size_t s = 0; s < shape.size(); ++s) {
+        if (auto failure = checks::check(indexed_place(place, s), shape[s], {-100, 100})) return failure;
+    }
+    return {};
+}
+
 Check validate_output(const InstrumentDescription& instrument, double shortest_m) {
     const auto& pickups = instrument.pickups;
     if (auto failure = checks::check_count("pickups", pickups.size(), 0, limits::pickups)) return failure;
@@ -99,14 +109,29 @@ Check validate_output(const InstrumentDescription& instrument, double shortest_m
     }
     const auto& body = instrument.body;
     if (auto failure = checks::check_count("body", body.size(), 0, limits::body_modes)) return failure;
+    std::size_t moving = 0;
     for (std::size_t i = 0; i < body.size(); ++i) {
         if (auto failure = check_values(indexed_place("body", i) + ".",
-                                        {{"frequency_hz", body[i].frequency_hz, 5, 20000},
-                                         {"t60_s", body[i].t60_s, 1e-4, 20},
-                                         {"gain_left", body[i].gain_left, -1e6, 1e6},
-                                         {"gain_right", body[i].gain_right, -1e6, 1e6}}))
+                                        {
+                                            {"frequency_hz", body[i].frequency_hz, 5, 20000},
+                                            {"t60_s", body[i].t60_s, 1e-4, 20},
+                                            {"gain_left", body[i].gain_left, -1e6, 1e6},
+                                            {"gain_right", body[i].gain_right, -1e6, 1e6},
+                                        }))
+            return failure;
+        if (body[i].mass_kg != 0) {
+            if (auto failure =
+                    checks::check(indexed_place("body", i) + ".mass_kg", body[i].mass_kg, {1e-4, 1e4}))
+                return failure;
+            ++moving;
+        }
+        if (auto failure =
+                check_shape(indexed_place("body", i) + ".shape", body[i].shape, instrument.strings.size()))
             return failure;
     }
+    if (instrument.bridge && (moving == 0 || moving > limits::moving_body_modes))
+        return Failure{"body", std::to_string(moving) + " modes with mass",
+                       "1 to " + std::to_string(limits::moving_body_modes) + " where the bridge moves"};
     if (!pickups.empty() || !body.empty()) return {};
     return Failure{"pickups", "none", "at least one pickup, or a body"};
 }

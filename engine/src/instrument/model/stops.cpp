@@ -1,9 +1,11 @@
 #include "instrument/model/stops.h"
 #include "base/assert.h"
 #include "base/square.h"
+#include "instrument/model/body_on_string.h"
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace jawari {
 namespace {
@@ -195,6 +197,47 @@ std::vector<PlacedContact> contacts_at(const InstrumentDescription& instrument, 
     return contacts;
 }
 
+/// Without contacts.
+StringDescription tuned_string(const InstrumentDescription& instrument, std::size_t index, std::size_t fret,
+                               double frequency_hz) {
+    const InstrumentStringDescription& string = instrument.strings[index];
+    StringDescription stopped;
+    stopped.name = string.name;
+    stopped.length_m = speaking_length(instrument, string, fret);
+    stopped.linear_density_kg_per_m = string.linear_density_kg_per_m;
+    const Stiffness stiffness = stiffness_at(string, stopped.length_m, frequency_hz);
+    PhysicalModes modes;
+    modes.count = modes_up_to(instrument.quality.mode_limit_hz, frequency_hz, stiffness.inharmonicity);
+    modes.tension_N = stiffness.tension_N;
+    modes.inharmonicity = stiffness.inharmonicity;
+    modes.damping = string.damping;
+    stopped.modes = modes;
+    return stopped;
+}
+
+/// How often the tension is corrected at most, and the share of the frequency that may be missing: near a
+/// resonance of the body the partial follows its string by a part of the way.
+constexpr int corrections = 60;
+constexpr double close_enough = 1e-6;
+
+/// The string whose first partial has that frequency with the body, and which loses with it what it is said
+/// to lose. `rigid`: the same on a rigid bridge.
+StringDescription tuned_on_bridge(const InstrumentDescription& instrument, std::size_t index,
+                                  std::size_t fret, StringDescription rigid) {
+    const std::vector<double> losses = body_losses(instrument, index, rigid);
+    const double wanted_hz = note_frequency(instrument, instrument.strings[index], fret);
+    double frequency_hz = wanted_hz;
+    for (int i = 0; i < corrections; ++i) {
+        rigid = tuned_string(instrument, index, fret, frequency_hz);
+        std::get<PhysicalModes>(rigid.modes).lost_elsewhere_per_s = losses;
+        const double coupled_hz = coupled_first_partial(instrument, index, rigid);
+        if (!(coupled_hz > 0.5 * wanted_hz && coupled_hz < 2 * wanted_hz)) break;
+        if (std::abs(coupled_hz - wanted_hz) < close_enough * wanted_hz) break;
+        frequency_hz *= wanted_hz / coupled_hz;
+    }
+    return rigid;
+}
+
 }  // namespace
 
 int semitones_of(const FretsDescription& frets, std::size_t fret) {
@@ -221,20 +264,10 @@ double note_frequency(const InstrumentDescription& instrument, const InstrumentS
 StringDescription stopped_string(const InstrumentDescription& instrument, std::size_t index,
                                  std::size_t fret) {
     JAWARI_ASSERT(index < instrument.strings.size());
-    const InstrumentStringDescription& string = instrument.strings[index];
-    const double frequency_hz = note_frequency(instrument, string, fret);
+    const double frequency_hz = note_frequency(instrument, instrument.strings[index], fret);
     JAWARI_ASSERT(frequency_hz > 0);
-    StringDescription stopped;
-    stopped.name = string.name;
-    stopped.length_m = speaking_length(instrument, string, fret);
-    stopped.linear_density_kg_per_m = string.linear_density_kg_per_m;
-    const Stiffness stiffness = stiffness_at(string, stopped.length_m, frequency_hz);
-    PhysicalModes modes;
-    modes.count = modes_up_to(instrument.quality.mode_limit_hz, frequency_hz, stiffness.inharmonicity);
-    modes.tension_N = stiffness.tension_N;
-    modes.inharmonicity = stiffness.inharmonicity;
-    modes.damping = string.damping;
-    stopped.modes = modes;
+    StringDescription stopped = tuned_string(instrument, index, fret, frequency_hz);
+    if (instrument.bridge) stopped = tuned_on_bridge(instrument, index, fret, std::move(stopped));
     for (const PlacedContact& placed : contacts_at(instrument, index, fret))
         stopped.contacts.push_back(placed.contact);
     return stopped;

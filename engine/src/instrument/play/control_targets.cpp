@@ -32,6 +32,12 @@ double bend_target(const InstrumentModel& model, const InstrumentState& state,
     return bend + pressure * model.hand.pressure_semitones + vibrato(model, state, channel);
 }
 
+double body_level(const InstrumentState& state, int channel) JAWARI_REALTIME {
+    const ChannelState& controls = channel_of(state, channel);
+    return parameter_of(controls, ParameterId::Volume) * parameter_of(controls, ParameterId::Expression) *
+           parameter_of(controls, ParameterId::BodyMix);
+}
+
 VoiceGains gain_targets(const InstrumentModel& model, const InstrumentState& state, std::size_t s,
                         int channel) JAWARI_REALTIME {
     const InstrumentStringModel& string = string_of(model, state, s);

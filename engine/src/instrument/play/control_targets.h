@@ -29,6 +29,9 @@ double follow_share(const InstrumentModel& model, double frames, double time_s) 
 /// Bend that the string's sounding note should have now, without slides [semitones].
 double bend_target(const InstrumentModel& model, const InstrumentState& state, std::size_t s) JAWARI_REALTIME;
 
+/// Factor of the sound of a body on a moving bridge under the controls of `channel`.
+double body_level(const InstrumentState& state, int channel) JAWARI_REALTIME;
+
 /// Gains that a voice of string s should have under the controls of `channel`.
 VoiceGains gain_targets(const InstrumentModel& model, const InstrumentState& state, std::size_t s,
                         int channel) JAWARI_REALTIME;

@@ -4,12 +4,16 @@
 #include <array>
 
 #include "base/assert.h"
+#include "instrument/play/answering.h"
 #include "instrument/play/control_targets.h"
 #include "instrument/play/controls.h"
+#include "instrument/play/coupled_frames.h"
 #include "instrument/play/events.h"
 #include "instrument/play/impacts.h"
 #include "instrument/play/strokes.h"
 #include "instrument/voice/body.h"
+#include "instrument/voice/bridge_model.h"
+#include "instrument/voice/coupled_voice.h"
 #include "instrument/voice/pickups.h"
 #include "instrument/voice/voice.h"
 
@@ -88,6 +92,11 @@ std::size_t run_length(const InstrumentState& state, std::size_t frames) {
 void advance(const InstrumentModel& model, InstrumentState& state, std::span<double* const> strings,
              std::size_t n, double smoothing, Run& run) {
     for (auto* signal : {&run.left, &run.right, &run.bridge_N}) std::fill_n(signal->begin(), run.frames, 0.0);
+    if (bridge_moves(model)) {
+        advance_coupled(model, state, {strings, n}, smoothing,
+                        {run.frames, run.left.data(), run.right.data(), run.bridge_N.data()});
+        return;
+    }
     bool busy = false;
     StringRun one;
     const std::size_t heard =
@@ -128,7 +137,10 @@ void render_frames(const InstrumentModel& model, InstrumentState& state,
         while (due < events.size() && events[due].frame <= n) ++due;
         apply_events(model, state, events.subspan(next, due - next));
         next = due;
-        if (state.busy && state.frame % control_frames == 0) follow_controls(model, state);
+        if (state.frame % control_frames == 0) {
+            if (state.busy) follow_controls(model, state);
+            if (bridge_moves(model) && state.bridge.ringing) follow_answers(model, state);
+        }
         const std::size_t end = next < events.size() ? std::min(frames, events[next].frame) : frames;
         run.frames = run_length(state, end - n);
         advance(model, state, strings, n, smoothing, run);
@@ -167,6 +179,11 @@ double string_energy(const InstrumentModel& model, InstrumentState& state,
         if (voice.phase != VoicePhase::Idle) sum += voice_energy(string_of(model, state, string), voice);
     }
     return sum;
+}
+
+double bridge_energy(const InstrumentModel& model, const InstrumentState& state) JAWARI_REALTIME {
+    if (!bridge_moves(model)) return 0;
+    return body_energy(model.bridge, state.bridge) + coupling_energy(model, state) + state.bridge.debt_J;
 }
 
 }  // namespace jawari

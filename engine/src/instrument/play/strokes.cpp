@@ -50,7 +50,8 @@ void damp_sounding(const InstrumentModel& model, InstrumentState& state, std::si
 void fade_damped(InstrumentStringState& string, InstrumentCounters& counters) {
     if (string.voices.size() == 1) return;
     for (Voice& voice : string.voices) {
-        if (voice.phase != VoicePhase::Damped || voice.fading) continue;
+        const bool earlier = voice.phase == VoicePhase::Damped || voice.phase == VoicePhase::Answering;
+        if (!earlier || voice.fading) continue;
         fade_voice(voice);
         counters.faded_voices += 1;
     }
@@ -79,6 +80,8 @@ Voice& take_note(const InstrumentModel& model, InstrumentState& state, std::size
     voice.phase = VoicePhase::Sounding;
     voice.channel = channel;
     voice.targets = gain_targets(model, state, s, channel);
+    state.bridge.channel = channel;
+    if (!state.bridge.ringing) state.bridge.level = body_level(state, channel);
     string.sounding = v;
     string.pending.active = false;
     return voice;

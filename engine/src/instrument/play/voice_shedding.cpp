@@ -4,7 +4,29 @@
 
 namespace jawari {
 
+namespace {
+
+/// Output frames in which no open string begins to answer after one had to stop.
+constexpr std::uint64_t frames_without_answers = 48000;
+
+/// Open strings that answer go first.
+bool fade_answering(InstrumentState& state) {
+    bool faded = false;
+    for (InstrumentStringState& string : state.strings) {
+        for (Voice& voice : string.voices) {
+            if (voice.phase != VoicePhase::Answering || voice.fading) continue;
+            fade_voice(voice);
+            faded = true;
+        }
+    }
+    if (faded) state.bridge.answers_from = state.frame + frames_without_answers;
+    return faded;
+}
+
+}  // namespace
+
 bool fade_oldest_released(InstrumentState& state) JAWARI_REALTIME {
+    if (fade_answering(state)) return true;
     Voice* oldest = nullptr;
     for (InstrumentStringState& string : state.strings) {
         if (string.busy == 0) continue;

@@ -12,7 +12,7 @@ void set_compliances(const StringModel& model, TouchState& touches, const Active
                      const std::array<std::size_t, count>& places, std::size_t used) {
     std::array<const double*, count> rows;  // NOLINT(cppcoreguidelines-pro-type-member-init): `used` set
     std::array<double, count * count> compliance;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
-    for (std::size_t a = 0; a < used; ++a) rows[a] = row_of(touches, active.index[places[a]]).data();
+    for (std::size_t a = 0; a < used; ++a) rows[a] = row_of(touches, active, places[a]);
     // Behind its reach a row is zero.
     kernels::compliances_of(reach_of(model, active), used, model.shape->step_s / 2, model.tuning.flight,
                             rows.data(), compliance.data());
@@ -23,14 +23,8 @@ void set_compliances(const StringModel& model, TouchState& touches, const Active
     }
 }
 
-/// What the touches answer: force_i = alone_i + by_exciter_i F_exciter.
-struct TouchAnswer {  // NOLINT(cppcoreguidelines-pro-type-member-init)
-    std::array<double, touch_slots> alone;
-    std::array<double, touch_slots> by_exciter;
-};
-
 /// F_i = -(c/T + k/2) (rise_i + sum_j G_ij F_j) - k (w_i - rest_i) + N_i, solved for the F of the touches.
-/// With one right side nothing is said of the exciter.
+/// With one right side nothing is said of the exciter, with two nothing of the bridge.
 template <std::size_t most, std::size_t sides>
 TouchAnswer answer_of(const StringModel& model, const TouchState& touches, const ActiveForces& active,
                       const kernels::TouchedRows& paths, std::size_t n) {
@@ -47,12 +41,14 @@ TouchAnswer answer_of(const StringModel& model, const TouchState& touches, const
                 (a == b ? 1.0 : 0.0) + drag * touches.compliance[i * most_forces + active.index[b]];
         system.right[a][0] =
             -drag * paths.rise[a] - stiffness * (paths.middle[a] - touch.rest_m) + touch.point.noise_N;
-        if (sides == 2) system.right[a][1] = -drag * touches.compliance[i * most_forces + exciter_index];
+        if (sides >= 2) system.right[a][1] = -drag * touches.compliance[i * most_forces + exciter_index];
+        if (sides >= 3) system.right[a][2] = -drag * touches.compliance[i * most_forces + bridge_index];
     }
     solve_small_system<most, sides>(system, n);
     for (std::size_t a = 0; a < n; ++a) {
         answer.alone[a] = system.right[a][0];
-        answer.by_exciter[a] = sides == 2 ? system.right[a][1] : 0.0;
+        answer.by_exciter[a] = sides >= 2 ? system.right[a][1] : 0.0;
+        if (sides >= 3) answer.by_bridge[a] = system.right[a][2];
     }
     return answer;
 }
@@ -93,6 +89,11 @@ StringAtExciter string_at_exciter(const StringModel& model, const TouchState& to
 }
 
 }  // namespace
+
+TouchAnswer answer_to_bridge(const StringModel& model, const TouchState& touches, const ActiveForces& active,
+                             const kernels::TouchedRows& paths) JAWARI_REALTIME {
+    return answer_of_touches<3>(model, touches, active, paths);
+}
 
 /// G_ij = sum_k phi_i (q_held - h v_held/2) phi_j
 void set_compliance_of_touches(const StringModel& model, TouchState& touches,

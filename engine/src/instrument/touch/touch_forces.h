@@ -12,34 +12,25 @@
 
 namespace jawari {
 
-/// All touches and the exciter, which is last.
-inline constexpr std::size_t most_forces = touch_slots + 1;
+/// All touches, the exciter, and the bridge if it moves.
+inline constexpr std::size_t most_forces = voice_forces;
 inline constexpr std::size_t exciter_index = touch_slots;
-
-// Of the arrays in the structures below only the first entries, one per force that acts, are ever set or
-// read: this runs for every voice in every frame, and clearing them takes a tenth of its time.
-
-/// The touches and, if it acts, the exciter.
-struct ActiveForces {  // NOLINT(cppcoreguidelines-pro-type-member-init)
-    std::array<std::size_t, most_forces> index;
-    std::size_t count = 0;
-    std::size_t touches = 0;        ///< those in front
-    std::size_t touched_modes = 0;  ///< that any of them reaches
-    bool sprung = false;            ///< one of them has a spring
-    bool noisy = false;             ///< one of them makes a noise
-};
+inline constexpr std::size_t bridge_index = touch_slots + 1;
 
 inline bool excites(const ActiveForces& active) {
-    return active.count > active.touches;
+    return active.excited;
 }
 
 /// Modes that the forces reach.
 inline std::size_t reach_of(const StringModel& model, const ActiveForces& active) {
-    return excites(active) ? model.shape->stride : active.touched_modes;
+    return excites(active) || active.bridge != nullptr ? model.shape->stride : active.touched_modes;
 }
 
-inline const AlignedVector<double>& row_of(const TouchState& touches, std::size_t i) {
-    return i == exciter_index ? touches.exciter.row : touches.touches[i].row;
+/// Of the a-th active force.
+inline const double* row_of(const TouchState& touches, const ActiveForces& active, std::size_t a) {
+    const std::size_t i = active.index[a];
+    if (i == bridge_index) return active.bridge;
+    return i == exciter_index ? touches.exciter.row.data() : touches.touches[i].row.data();
 }
 
 /// Output frame [s].
@@ -51,8 +42,12 @@ inline double frame_s(const StringModel& model) {
 void set_compliance_of_touches(const StringModel& model, TouchState& touches,
                                const ActiveForces& active) JAWARI_REALTIME;
 
+/// With exciter and bridge.
+TouchAnswer answer_to_bridge(const StringModel& model, const TouchState& touches, const ActiveForces& active,
+                             const kernels::TouchedRows& paths) JAWARI_REALTIME;
+
 /// What acts over the coming frame.
-struct HeldForces {  // NOLINT(cppcoreguidelines-pro-type-member-init): the first `count` are set
+struct HeldForces {  // NOLINT(cppcoreguidelines-pro-type-member-init): one force per force that acts is set
     std::array<double, most_forces> force_N;
     bool any = false;      ///< one of them is not 0
     bool passive = false;  ///< as hold_forces() has it

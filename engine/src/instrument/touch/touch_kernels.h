@@ -10,14 +10,6 @@
 
 namespace jawari::kernels {
 
-/// Rows that touch a string, and what the string does under them: the first `count` of each array are set.
-struct TouchedRows {  // NOLINT(cppcoreguidelines-pro-type-member-init)
-    std::size_t count = 0;
-    std::array<const double*, touch_slots + 1> row;
-    std::array<double, touch_slots + 1> middle;  ///< row (q - lag v)
-    std::array<double, touch_slots + 1> rise;    ///< its change over the frame in free flight
-};
-
 /// What modes [begin, end) do under all rows.
 void free_paths(std::size_t begin, std::size_t end, double lag, const FlightModel& flight, const double* q,
                 const double* v, TouchedRows& rows) noexcept;

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "base/square.h"
+#include "instrument/voice/bridge_model.h"
 #include "instrument/voice/retune_kernel.h"
 #include "jawari/scene/energy.h"
 #include "string/broad_phase/gap_bounds.h"
@@ -19,10 +21,16 @@ constexpr double slackest = 0.01;
 /// No mode rises above this share of the step's Nyquist rate.
 constexpr double highest_share = 0.95;
 
-kernels::Retuning retuning_of(const StoppedStringModel& stopped, double semitones) {
+/// Tension over the compiled one.
+double tension_growth(const StoppedStringModel& stopped, double semitones) {
     const double ratio = std::exp2(semitones / 12);
     const double B = stopped.inharmonicity;
-    const double tension = std::max(slackest, ratio * ratio * (1 + B) - B);
+    return std::max(slackest, ratio * ratio * (1 + B) - B);
+}
+
+kernels::Retuning retuning_of(const StoppedStringModel& stopped, double semitones) {
+    const double B = stopped.inharmonicity;
+    const double tension = tension_growth(stopped, semitones);
     const double omega = stopped.string.tuning.omega[0];
     return {(tension - 1) * omega * omega / (1 + B),
             highest_share * std::numbers::pi / stopped.string.shape->step_s};
@@ -59,6 +67,16 @@ void restore(const StoppedStringModel& stopped, Voice& voice) {
                              (stopped.backward_q[k] - share * bend.backward_q[k]) * string.displacement[k];
     }
     forget_bend(voice);
+}
+
+/// The end at a moving bridge pulls and resists as the tension does.
+void set_end_tension(const StoppedStringModel& stopped, Voice& voice) {
+    if (stopped.bridge_stiffness_N_per_m == 0) return;
+    const double tension_N =
+        square(stopped.wave_impedance_kg_per_s) / stopped.string.shape->linear_density_kg_per_m;
+    voice.bend.growth = tension_growth(stopped, voice.bend.semitones);
+    voice.bend.bridge_stiffness_N_per_m =
+        end_stiffness(voice.bend.model, stopped.end_row.data(), tension_N, voice.bend.growth);
 }
 
 }  // namespace
@@ -111,6 +129,7 @@ void set_bend(const StoppedStringModel& stopped, Voice& voice, double semitones,
         kernels::retune(stopped, retuning_of(stopped, semitones), bend.model.tuning, bend.backward_q.data(),
                         bend.backward_u.data(), string.displacement.data(), string.velocity.data());
         bend.semitones = semitones;
+        set_end_tension(stopped, voice);
     }
     const double work_J = energy(bend.active ? bend.model : stopped.string, string) - before;
     if (std::isfinite(work_J)) work.bends_J += work_J;

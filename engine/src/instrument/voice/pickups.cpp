@@ -45,6 +45,41 @@ void make_audible(const StringModel& model, double output_rate_hz, double* row) 
         row[k] *= audible_share(model.tuning.omega[k] / (2 * pi), output_rate_hz);
 }
 
+/// Partials up to this x = omega T/2 on a moving bridge are exact; a quarter of the output rate.
+constexpr double highest_exact = pi / 4;
+/// What partials above may be multiplied by at most, and at least.
+constexpr double most_allowed = 3, least_allowed = 0.5;
+
+/// A moving bridge meets the string once a frame: it gets the mean of the force at both ends of the frame,
+/// which is cos(x) of the force in its middle, and holds it, which acts as sin(x)/x of it; so does the string
+/// with the bridge's displacement. The row gives each partial back what that takes. Of what a partial above
+/// the bridge's motion adds to the bridge's inertia, mu a_k^2, that leaves (x/sin x)^4, and x^2 cot^2 x of a
+/// partial whose row stays as it is. The partials above highest_exact get one factor with which the inertia
+/// of all is that of the string's end, mu L/3, as if no partial were left out.
+void allow_for_frames(const StringModel& model, double output_rate_hz, double* row) {
+    const auto square = [](double value) { return value * value; };
+    double low = 0, high = 0;
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
+        const double omega = model.tuning.omega[k];
+        const double x = omega / (2 * output_rate_hz);
+        if (row[k] == 0 || x >= pi / 2) continue;
+        const double inertia_kg = square(row[k] / square(omega)) / model.shape->linear_density_kg_per_m;
+        if (x > highest_exact) {
+            high += inertia_kg * square(x / std::tan(x));
+        } else {
+            low += inertia_kg * square(square(x / std::sin(x)));
+            row[k] *= x / (std::cos(x) * std::sin(x));
+        }
+    }
+    const double end_kg = model.shape->linear_density_kg_per_m * model.shape->length_m / 3;
+    const double allowed = std::sqrt(std::max(0.0, end_kg - low) / high);
+    if (!(high > 0)) return;
+    for (std::size_t k = 0; k < model.shape->mode_count; ++k) {
+        if (model.tuning.omega[k] / (2 * output_rate_hz) > highest_exact)
+            row[k] *= std::clamp(allowed, least_allowed, most_allowed);
+    }
+}
+
 /// Gain of a low pass of second order whose gain at its resonance is Q.
 double coil_gain(const PickupDescription& pickup, double frequency_hz) {
     const double r = frequency_hz / pickup.resonance_hz;
@@ -104,6 +139,12 @@ void set_output_rows(StoppedStringModel& stopped, const InstrumentDescription& i
     stopped.bridge_row.assign(model.shape->stride, 0.0);
     write_bridge_row(model, stopped.bridge_row.data());
     make_audible(model, output_rate_hz, stopped.bridge_row.data());
+    if (instrument.bridge) {
+        stopped.end_row = stopped.bridge_row;
+        allow_for_frames(model, output_rate_hz, stopped.end_row.data());
+        stopped.end_rest_N =
+            product(stopped.end_row.data(), model.shape->rest_displacement, model.shape->stride);
+    }
     stopped.bridge_rest_N =
         product(stopped.bridge_row.data(), model.shape->rest_displacement, model.shape->stride);
 }

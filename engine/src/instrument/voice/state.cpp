@@ -4,6 +4,7 @@
 
 #include "base/assert.h"
 #include "instrument/voice/body.h"
+#include "instrument/voice/bridge_model.h"
 #include "instrument/voice/voice.h"
 #include "jawari/instrument/qualities.h"
 
@@ -64,6 +65,8 @@ InstrumentState make_instrument_state(const InstrumentModel& model) {
     state.courses.resize(model.courses.size());
     state.channels.fill(neutral_channel());
     state.body = make_body_state(model.body);
+    state.bridge =
+        make_bridge_state(model.bridge, model.strings.size(), model.strings.size() * voices_per_string);
     if (model.body.count > 0) state.string_bodies.assign(model.strings.size(), state.body);
     state.impacts = make_impact_log(model);
     return state;
@@ -82,6 +85,7 @@ void reset(const InstrumentModel& model, InstrumentState& state) JAWARI_REALTIME
     std::fill(state.courses.begin(), state.courses.end(), CourseState{});
     state.channels.fill(neutral_channel());
     reset_body(state.body);
+    reset_bridge(state.bridge);
     for (BodyState& body : state.string_bodies) reset_body(body);
     state.play = model.play;
     state.note_order = 0;
@@ -148,7 +152,7 @@ std::uint64_t nonfinite_resets(const InstrumentState& state, std::size_t string)
 }
 
 std::uint64_t finished_nonfinite_resets(const InstrumentState& state) JAWARI_REALTIME {
-    return state.finished.nonfinite_resets + state.body.nonfinite_resets;
+    return state.finished.nonfinite_resets + state.body.nonfinite_resets + state.bridge.nonfinite_resets;
 }
 
 Counters contact_counters(const InstrumentState& state) JAWARI_REALTIME {
@@ -162,7 +166,7 @@ Counters contact_counters(const InstrumentState& state) JAWARI_REALTIME {
 }
 
 bool at_rest(const InstrumentState& state) JAWARI_REALTIME {
-    return !state.busy && !state.body.ringing &&
+    return !state.busy && !state.body.ringing && !state.bridge.ringing &&
            std::all_of(state.strings.begin(), state.strings.end(), [](const InstrumentStringState& string) {
                return !string.pending.active &&
                       std::all_of(string.voices.begin(), string.voices.end(),

@@ -9,6 +9,7 @@
 #include "instrument/voice/bend.h"
 #include "instrument/voice/hands.h"
 #include "instrument/voice/pickups.h"
+#include "instrument/voice/voice_run.h"
 #include "jawari/scene/energy.h"
 #include "jawari/scene/render.h"
 #include "string/broad_phase/gap_bounds.h"
@@ -19,64 +20,10 @@
 namespace jawari {
 namespace {
 
-/// Output frames between two looks at a voice's energy.
-constexpr std::uint64_t rest_check_frames = 64;
 /// A finger that comes down on a ringing string has at least this share of its wave impedance.
 constexpr double finger_share = 0.5;
 /// A finger's damping comes and leaves in this part of the rise each.
 constexpr std::uint64_t damping_eases = 4;
-
-void finish(Voice& voice, InstrumentState& state) {
-    state.finished += voice.string.counters;
-    voice.string.counters = {};
-    voice.phase = VoicePhase::Idle;
-    voice.fading = false;
-    voice.slide.active = false;
-    lift_all_touches(voice.touches);
-    forget_bend(voice);
-}
-
-/// Gain of fading in and out.
-double fade_gain(const InstrumentModel& model, Voice& voice) {
-    double gain = 1;
-    if (voice.rise_frame < model.fade_shape.size()) {
-        gain -= model.fade_shape[voice.rise_frame];
-        voice.rise_frame += 1;
-    }
-    if (!voice.fading) return gain;
-    gain *= model.fade_shape[voice.fade_frame];
-    voice.fade_frame += 1;
-    return gain;
-}
-
-/// What a change of quality level has left goes on, and fades.
-void add_remainder(const InstrumentModel& model, QualityRemainder& remainder, double& pickups,
-                   double& bridge_N) {
-    if (!remainder.active) return;
-    const double gain = model.fade_shape[remainder.frame];
-    pickups += gain * remainder.pickups;
-    bridge_N += gain * remainder.bridge_N;
-    remainder.frame += 1;
-    remainder.active = remainder.frame < model.fade_shape.size();
-}
-
-bool has_ended(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice) {
-    if (voice.fading) return voice.fade_frame >= model.fade_shape.size();
-    if (voice.age % rest_check_frames != 0 || voice.touches.exciter.phase != ExciterPhase::None) return false;
-    return voice_energy(string, voice) < string.stopped[voice.fret].rest_energy_J;
-}
-
-void follow(double target, double smoothing, double& value) {
-    value += smoothing * (target - value);
-}
-
-void follow_gains(Voice& voice, double smoothing) {
-    follow(voice.targets.level, smoothing, voice.gains.level);
-    follow(voice.targets.left, smoothing, voice.gains.left);
-    follow(voice.targets.right, smoothing, voice.gains.right);
-    follow(voice.targets.body, smoothing, voice.gains.body);
-    follow(voice.targets.mix, smoothing, voice.gains.mix);
-}
 
 /// A negative `action` raises what the string clears up to this height, just below the rest line [m].
 constexpr double highest_lowered_m = -1e-5;
@@ -163,16 +110,6 @@ void strike_with(const TangentDescription& tangent, const Strike& strike) {
                   std::max(shortest_tangent_frames, rise));
 }
 
-/// A voice on its way through the frames of advance_voice().
-struct VoiceRun {
-    const InstrumentModel& model;
-    const InstrumentStringModel& string;
-    Voice& voice;
-    double smoothing;
-    InstrumentState& state;
-    OutputReadings& readings;
-};
-
 /// A frame under hands or an exciter.
 void pass_touched(const StringModel& coefficients, VoiceRun& run, std::size_t n) {
     Voice& voice = run.voice;
@@ -197,13 +134,6 @@ bool only_flies(const StringModel& coefficients, const VoiceRun& run) {
            flies_always(coefficients, run.voice.string);
 }
 
-/// Frames until the voice may end: the last of a fade, or one after which its energy is looked at.
-std::size_t frames_to_end(const VoiceRun& run) {
-    const Voice& voice = run.voice;
-    if (voice.fading) return run.model.fade_shape.size() - voice.fade_frame;
-    return static_cast<std::size_t>(rest_check_frames - voice.age % rest_check_frames);
-}
-
 /// Frames of a string that nothing touches, at most `frames`: as many at once as contacts are known to stay
 /// open. Returns how many there were.
 std::size_t pass_untouched(const StringModel& coefficients, VoiceRun& run, std::size_t n,
@@ -220,37 +150,6 @@ std::size_t pass_untouched(const StringModel& coefficients, VoiceRun& run, std::
     cross_frame(coefficients, string, answer);
     read_outputs(string, n, run.readings);
     return 1;
-}
-
-/// What the outputs get of frame n, which the string has passed. `resets`: of the string before that.
-void add_signals(VoiceRun& run, std::size_t n, std::uint64_t resets, VoiceSignals& sum) {
-    const auto& model = run.model;
-    Voice& voice = run.voice;
-    const StoppedStringModel& stopped = run.string.stopped[voice.fret];
-    voice.age += 1;
-    follow_gains(voice, run.smoothing);
-    const double gain = voice.gains.level * fade_gain(model, voice);
-    double pickups = pickup_signal(model, stopped, run.readings, n, voice.gains.mix);
-    double bridge_N = model.body.count > 0 ? bridge_force(stopped, run.readings, n) : 0.0;
-    add_remainder(model, voice.remainder, pickups, bridge_N);
-    VoiceSignals signals;
-    signals.pickups = gain * pickups;
-    signals.left = voice.gains.left * signals.pickups;
-    signals.right = voice.gains.right * signals.pickups;
-    signals.bridge_N = gain * voice.gains.body * bridge_N;
-    const bool finite = std::isfinite(signals.left + signals.right + signals.bridge_N);
-    if (!finite || voice.string.counters.nonfinite_resets != resets) {
-        // The string is at rest, but what has lost it may be a hand, a hammer or a gain: the voice ends, and
-        // the next note starts with nothing of it.
-        voice.string.counters.nonfinite_resets = resets + 1;
-        finish(voice, run.state);
-        return;
-    }
-    sum.pickups += signals.pickups;
-    sum.left += signals.left;
-    sum.right += signals.right;
-    sum.bridge_N += signals.bridge_N;
-    if (has_ended(model, run.string, voice)) finish(voice, run.state);
 }
 
 }  // namespace
@@ -279,6 +178,7 @@ void reset_voice(Voice& voice) JAWARI_REALTIME {
     voice.fade_frame = 0;
     voice.rise_frame = 0;
     voice.remainder = {};
+    voice.end = {};
     voice.gains = {};
     voice.targets = {};
 }
@@ -294,6 +194,7 @@ void start_voice(const InstrumentModel& model, const InstrumentStringModel& stri
     voice.fade_frame = 0;
     voice.rise_frame = model.fade_shape.size();
     voice.remainder = {};
+    voice.end = {};
     voice.slide.active = false;
     voice.rests_on_obstacles = stopped.held_energy_J != 0;
     forget_bend(voice);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/assert.h"
+#include "base/square.h"
 #include "string/contact/contact_stage.h"
 #include "string/kernels/mode_bounds.h"
 #include "string/kernels/mode_sums.h"
@@ -58,8 +59,11 @@ void fall_asleep(StringState& state) {
 /// Whether what acts on the string is too weak to bring a clear string to a contact.
 bool stays_passive(const StringState& state) {
     const ExcitationState& excitation = state.excitation;
-    return !excitation.active ||
-           (excitation.passive && excitation.strength_N <= state.certificate.clear.force_N);
+    const ClearState& clear = state.certificate.clear;
+    if (!excitation.active) return true;
+    if (!(excitation.strength_N <= clear.force_N)) return false;
+    if (excitation.passive) return true;
+    return excitation.root >= 0 && square(clear.root + excitation.root) < clear.energy_J;
 }
 
 /// Computes the limits of ClearState from the obstacles' present heights.
@@ -86,10 +90,12 @@ bool is_clear(const StringModel& model, StringState& state) {
         model.shape->certificate.reach.size() == model.shape->contact_count && lookahead(model) == 0;
     if (!known || !state.skipping.certificate || !state.skipping.flight) return false;
     if (!clear.limits_valid) set_clear_limits(model, state);
-    if (!(clear.energy_J > 0) || !stays_passive(state)) return false;
-    return kernels::energy(state.active_modes, model.tuning.kinetic.data(), model.tuning.potential.data(),
-                           model.shape->step_s / 2, state.displacement.data(),
-                           state.velocity.data()) < clear.energy_J;
+    if (!(clear.energy_J > 0)) return false;
+    const double energy_J =
+        kernels::energy(state.active_modes, model.tuning.kinetic.data(), model.tuning.potential.data(),
+                        model.shape->step_s / 2, state.displacement.data(), state.velocity.data());
+    state.certificate.clear.root = std::sqrt(energy_J);
+    return energy_J < clear.energy_J && stays_passive(state);
 }
 
 /// Whether all gaps are tested at both ends of the frame. While few contacts strike, that costs less than

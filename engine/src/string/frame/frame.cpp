@@ -233,17 +233,38 @@ void fly_ahead(const StringModel& model, StringState& state, std::span<const Rea
     for (const Reading& reading : readings) std::fill_n(reading.out + first, frames, 0.0);
 }
 
+bool flies_clear(const StringModel& model, StringState& state, double strength_N,
+                 double root) JAWARI_REALTIME {
+    if (!state.skipping.flight || state.asleep || !model.shape->drives.spans.empty() ||
+        steps_uniformly(model, state))
+        return false;
+    ExcitationState& excitation = state.excitation;
+    JAWARI_ASSERT(!excitation.active);
+    excitation.active = true;
+    excitation.passive = false;
+    excitation.strength_N = strength_N;
+    excitation.root = root;
+    if (planned_frames(state) > 0) forget_bounds(state);
+    freshen_bounds(model, state);
+    const bool clear = state.certificate.clear.valid && !needs_refresh(state);
+    excitation.active = false;
+    excitation.root = -1;
+    return clear;
+}
+
 bool flies_always(const StringModel& model, const StringState& state) JAWARI_REALTIME {
     return model.shape->contact_count == 0 && model.shape->drives.spans.empty() && state.skipping.flight &&
            !steps_uniformly(model, state);
 }
 
 void cross_touched_frame(const StringModel& model, StringState& state, kernels::TouchedFlight& flight,
-                         std::size_t modes, bool passive) JAWARI_REALTIME {
-    JAWARI_ASSERT(flies_always(model, state) && !is_excited(state));
+                         std::size_t modes, bool passive, const FrameBounds& bounds) JAWARI_REALTIME {
+    JAWARI_ASSERT((flies_always(model, state) || bounds.root >= 0) && !is_excited(state));
     ExcitationState& excitation = state.excitation;
-    excitation.strength_N = 0;
-    for (std::size_t i = 0; i < flight.count; ++i) excitation.strength_N += std::abs(flight.force_N[i]);
+    excitation.strength_N = bounds.strength_N;
+    for (std::size_t i = 0; bounds.root < 0 && i < flight.count; ++i)
+        excitation.strength_N += std::abs(flight.force_N[i]);
+    excitation.root = bounds.root;
     excitation.active = true;
     excitation.passive = passive;
     excitation.modes = modes;
@@ -260,8 +281,10 @@ void cross_touched_frame(const StringModel& model, StringState& state, kernels::
     pass_freely(model, state);
     excitation.active = false;  // nothing was written to its modes
     excitation.passive = false;
+    excitation.root = -1;
     excitation.modes = 0;
     excitation.elapsed = 0;
+    if (bounds.root >= 0) state.certificate.clear.root += bounds.root;
     end_frame(model, state, finite);
 }
 

@@ -34,12 +34,23 @@ void fly_ahead(const StringModel& model, StringState& state, std::span<const Rea
 /// Whether nothing can strike the string and its frames may be flown: what cross_touched_frame() needs.
 bool flies_always(const StringModel& model, const StringState& state) JAWARI_REALTIME;
 
+/// What forces that are no hands may do in a frame.
+struct FrameBounds {
+    double strength_N = 0;  ///< point forces that would bend the string as far within the frame [N]
+    double root = -1;  ///< by how much they raise the root of its energy at most [J^(1/2)]; below 0: unknown
+};
+
+/// Whether the string cannot reach an obstacle in the coming frame under forces with these bounds, whatever
+/// they are. It has no excitation. Then cross_touched_frame() may follow.
+bool flies_clear(const StringModel& model, StringState& state, double strength_N,
+                 double root) JAWARI_REALTIME;
+
 /// One frame of such a string under the forces of `flight`, of which the caller sets `count`, `row`,
 /// `force_N`, `read_row` and `looks_ahead`; not all of them are 0. They act on the first `modes` (padded)
 /// modes. `passive`: as hold_forces() has it. The string must have no other excitation, and has none
 /// afterwards.
 void cross_touched_frame(const StringModel& model, StringState& state, kernels::TouchedFlight& flight,
-                         std::size_t modes, bool passive) JAWARI_REALTIME;
+                         std::size_t modes, bool passive, const FrameBounds& bounds = {}) JAWARI_REALTIME;
 
 /// Crosses one frame. `answer`: what plan_frames() has just said.
 void cross_frame(const StringModel& model, StringState& state, BroadPhaseAnswer answer) JAWARI_REALTIME;

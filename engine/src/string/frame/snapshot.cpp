@@ -133,7 +133,7 @@ void visit(Archive& archive, CertificateState& c) {
     Validity& v = c.validity;
     visit_all(archive, v.outdated, v.excited, v.age, v.direct, v.odometers_at_frame, v.group_has_detour,
               v.group_has_clearance, v.group_has_forecast, v.frame_gap_at, v.certified_at);
-    visit_all(archive, c.clear.valid, c.clear.limits_valid, c.clear.energy_J, c.clear.force_N);
+    visit_all(archive, c.clear.valid, c.clear.limits_valid, c.clear.energy_J, c.clear.root, c.clear.force_N);
     ForecastState& f = c.forecast;
     visit_all(archive, f.group_detour, f.group_overtones, f.gap, f.gap_at, f.displacement, f.velocity);
 }
@@ -144,7 +144,8 @@ void visit(Archive& archive, StringState& s) {
     ExcitationState& e = s.excitation;
     visit_all(archive, s.displacement, s.velocity, s.active_modes, s.frame, s.steps_left, s.asleep,
               s.leaves_obstacles);
-    visit_all(archive, e.held, e.ramp, e.elapsed, e.modes, e.active, e.ramps, e.passive, e.strength_N);
+    visit_all(archive, e.held, e.ramp, e.elapsed, e.modes, e.active, e.ramps, e.passive, e.strength_N,
+              e.root);
     visit_all(archive, s.contact, s.lcp, s.short_frame, s.certificate, s.near_frame.crowded, s.energy,
               s.counters);
 }

@@ -30,6 +30,7 @@ void hold_forces(StringState& state, const PointForces& forces, std::size_t shar
         excitation.strength_N += std::abs(forces.force_N[i]);
     }
     excitation.passive = passive;
+    excitation.root = -1;
     excitation.ramps = false;
     excitation.elapsed = 0;
     excitation.modes = excitation.active ? modes : 0;
