@@ -263,13 +263,14 @@ std::string plugin_turtle() {
 }
 
 std::string window_turtle() {
-    return std::string(prefixes) + "<" + window_uri +
-           ">\n    a ui:X11UI ;\n    lv2:binary <jawari.so> ;\n"
-           "    lv2:requiredFeature <http://lv2plug.in/ns/ext/instance-access> ;\n"
-           "    lv2:optionalFeature ui:idleInterface, ui:parent, ui:resize, ui:touch, opts:options, "
-           "urid:map,\n"
-           "        log:log ;\n"
-           "    lv2:extensionData ui:idleInterface, ui:resize, ui:showInterface .\n";
+    std::string text(prefixes);
+    text += "<" + std::string(window_uri) + ">\n    a ui:X11UI ;\n    lv2:binary <jawari.so> ;\n";
+    text +=
+        "    lv2:requiredFeature <http://lv2plug.in/ns/ext/instance-access> ;\n"
+        "    lv2:optionalFeature ui:idleInterface, ui:parent, ui:resize, ui:touch, opts:options, urid:map,\n"
+        "        log:log ;\n"
+        "    lv2:extensionData ui:idleInterface, ui:resize, ui:showInterface .\n";
+    return text;
 }
 
 std::string presets_turtle() {
