@@ -124,7 +124,7 @@ void move_bridge(Dice& dice, InstrumentDescription& instrument) {
     if (instrument.body.empty())
         instrument.body = {{.frequency_hz = 100, .t60_s = 0.2, .gain_left = 0.1, .gain_right = 0.1},
                            {.frequency_hz = 400, .t60_s = 0.1, .gain_left = 0.1, .gain_right = -0.1}};
-    instrument.bridge = BridgeDescription{.open_strings = dice.chance(0.7)};
+    instrument.bridge = BridgeDescription{.open_strings = dice.chance(0.7) ? dice.unit() : 0};
     std::size_t moving = 0;
     for (BodyModeDescription& mode : instrument.body) {
         if (moving == limits::moving_body_modes || (moving > 0 && dice.chance(0.3))) continue;

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "instrument/voice/bridge_model.h"
 #include "instrument/voice/voice.h"
 #include "invariants.h"
+#include "jawari/instrument/render.h"
 #include "jawari/scene/energy.h"
 #include "reach.h"
 #include "string/contact/impact_law.h"
@@ -20,12 +22,13 @@ constexpr double strongest_magnet = 125;
 
 double total(const PlayerWork& work) {
     return work.exciters_J + work.touches_J + work.bends_J + work.transfers_J + work.quality_changes_J +
-           work.noises_J;
+           work.noises_J + work.couplings_J;
 }
 
 double size_of(const PlayerWork& work) {
     return std::abs(work.exciters_J) + std::abs(work.touches_J) + std::abs(work.bends_J) +
-           std::abs(work.transfers_J) + std::abs(work.quality_changes_J) + std::abs(work.noises_J);
+           std::abs(work.transfers_J) + std::abs(work.quality_changes_J) + std::abs(work.noises_J) +
+           std::abs(work.couplings_J);
 }
 
 /// Sum of the amounts by which each kind of work has changed.
@@ -68,6 +71,37 @@ double touch_rounding(const StringModel& model, const Voice& voice, double energ
     return eps * operations(model) * sum;
 }
 
+/// Of the bridge under a string [m], by the body's energy.
+double largest_under(const BridgeModel& bridge, const BridgeState& state, std::size_t s) {
+    const double energy_J = body_energy(bridge, state);
+    double sum = 0;
+    for (std::size_t j = 0; j < bridge.count; ++j)
+        sum += std::abs(bridge.shape[s * bridge.stride + j]) * std::sqrt(2 * energy_J / bridge.stiffness[j]);
+    return sum;
+}
+
+/// A mode of mass m is no faster than sqrt(2 E/m).
+void add_moving_body(const BridgeModel& bridge, const BridgeState& state, double& left, double& right) {
+    if (bridge.count == 0) return;
+    const double energy_J = body_energy(bridge, state);
+    for (std::size_t j = 0; j < bridge.count; ++j) {
+        const double speed = state.level * std::sqrt(2 * energy_J / bridge.mass_kg[j]);
+        left += std::abs(bridge.gain_left[j]) * speed;
+        right += std::abs(bridge.gain_right[j]) * speed;
+    }
+}
+
+/// The coupling's terms, with the rounding of the force on the bridge, a sum over modes.
+double end_rounding(const InstrumentModel& instrument, const StoppedStringModel& stopped,
+                    const StringModel& model, const InstrumentState& state, std::size_t s, const Voice& voice,
+                    double energy_J) {
+    const double zeta_m = std::abs(voice.end.weight) * largest_under(instrument.bridge, state.bridge, s);
+    const double force_N =
+        bound_of(reach_of(model, {stopped.end_row.data(), model.shape->stride}).extent, energy_J) +
+        std::abs(stopped.end_rest_N);
+    return 16 * eps * operations(model) * (zeta_m * force_N + voice.end.stiffness_N_per_m * zeta_m * zeta_m);
+}
+
 }  // namespace
 
 InstrumentWatch::InstrumentWatch(const InstrumentModel& model, const InstrumentDescription& description,
@@ -78,10 +112,14 @@ InstrumentWatch::InstrumentWatch(const InstrumentModel& model, const InstrumentD
       never_penetrates_(description.law == ImpactLaw::Signorini) {
     contacts_.push_back(contact_reaches(model.strings));
     for (const auto& lower : model.lower) contacts_.push_back(contact_reaches(lower));
+    std::vector<BodyModeDescription> listening;
+    for (const BodyModeDescription& mode : description.body) {
+        if (!description.bridge || mode.mass_kg == 0) listening.push_back(mode);
+    }
     for (std::size_t i = 0; i < model.body.count; ++i) {
         // v = integral of exp(-sigma t) (cos Wt - sigma/W sin Wt) F: at most omega/(W sigma) times max |F|.
-        const double omega = 2 * 3.14159265358979323846 * description.body[i].frequency_hz;
-        const double sigma = std::min(std::log(1000.0) / description.body[i].t60_s, 0.9 * omega);
+        const double omega = 2 * 3.14159265358979323846 * listening[i].frequency_hz;
+        const double sigma = std::min(std::log(1000.0) / listening[i].t60_s, 0.9 * omega);
         const double answer = omega / (std::sqrt(omega * omega - sigma * sigma) * sigma);
         body_left_ += std::abs(model.body.gain_left[i]) * answer;
         body_right_ += std::abs(model.body.gain_right[i]) * answer;
@@ -103,8 +141,16 @@ InstrumentWatch::Energies InstrumentWatch::energies_of(const InstrumentState& st
             sum.largest += energy_J;
             sum.rounding += of_step + touch_rounding(model, voice, energy_J);
             sum.impulse += of_step + work_rounding(model, bound_of(reach.impulse, energy_J), gap_size);
+            if (model_.bridge.count > 0)
+                sum.rounding +=
+                    end_rounding(model_, string.stopped[voice.fret], model, state, s, voice, energy_J);
         }
     }
+    if (model_.bridge.count == 0) return sum;
+    const double body_J = body_energy(model_.bridge, state.bridge);
+    sum.beyond_rest += bridge_energy(model_, state);
+    sum.largest += body_J;
+    sum.rounding += eps * 16 * static_cast<double>(model_.bridge.count) * body_J;
     return sum;
 }
 
@@ -201,6 +247,7 @@ void InstrumentWatch::check_sound(const InstrumentState& state, const Piece& pie
         for (std::size_t v = 0; v < state.strings[s].voices.size(); ++v) add_bounds(state, s, v, bounds);
     }
     largest_bridge_N_ = std::max(largest_bridge_N_, bounds.bridge_N);
+    add_moving_body(model_.bridge, state.bridge, bounds.left, bounds.right);
     const auto body = [&](double answer) { return answer > 0 ? answer * largest_bridge_N_ : 0.0; };
     check_output(judge, piece.left, bounds.left + body(body_left_), "left");
     check_output(judge, piece.right, bounds.right + body(body_right_), "right");
@@ -211,6 +258,7 @@ void InstrumentWatch::end_piece(const InstrumentState& state, const Piece& piece
     check_finite(judge, piece.right, "right");
     check_resets(judge, contact_counters(state).nonfinite_resets, "strings");
     check_resets(judge, state.body.nonfinite_resets, "body");
+    check_resets(judge, state.bridge.nonfinite_resets, "bridge");
     check_energy(state, static_cast<double>(piece.left.size()), judge);
     check_gaps(state, judge);
     check_sound(state, piece, judge);

@@ -31,8 +31,7 @@ enum class ParameterId : std::size_t {
     PickupMix,
     BodyMix,
     ReleaseTime,
-    Action,
-    OpenStrings
+    Action
 };
 
 /// How a control's travel 0..1 covers low..high.
@@ -68,7 +67,7 @@ struct ParameterDeclaration {
 
 namespace detail {
 using enum ParameterId;
-inline constexpr std::array<ParameterDeclaration, 21> parameters{{
+inline constexpr std::array<ParameterDeclaration, 20> parameters{{
     {Volume, "volume", "1", 0, 1, 1, Curve::Squared, Reach::Sounding, "Level of the channel's notes",
      "Volume", "Mix", "Volume"},
     {Expression, "expression", "1", 0, 1, 1, Curve::Squared, Reach::Sounding,
@@ -114,9 +113,6 @@ inline constexpr std::array<ParameterDeclaration, 21> parameters{{
      "Factor of the decay time after note-off", "Release time", "Right hand", "Release"},
     {Action, "action", "m", -0.002, 0.004, 0, Curve::Linear, Reach::NextNote,
      "Distance added between the strings and everything below them", "Action", "Instrument", "Action"},
-    {OpenStrings, "open_strings", "1", 0, 1, 1, Curve::Linear, Reach::Sounding,
-     "How freely strings that nobody plays ring along on a bridge that moves; 0: not at all", "Open strings",
-     "Instrument", "OpenStr"},
 }};
 }  // namespace detail
 

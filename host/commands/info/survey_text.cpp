@@ -151,7 +151,7 @@ std::size_t moving_modes(const InstrumentDescription& instrument) {
 /// What a moving bridge couples.
 std::string bridge_text(const InstrumentDescription& instrument) {
     std::string text = formatted(", %zu of them move the bridge under all strings", moving_modes(instrument));
-    if (instrument.bridge->open_strings) text += "; open strings ring along";
+    if (instrument.bridge->open_strings > 0) text += "; open strings ring along";
     const auto sympathetic = std::count_if(instrument.strings.begin(), instrument.strings.end(),
                                            [](const auto& string) { return string.sympathetic; });
     if (sympathetic > 0) text += formatted("; %td sympathetic strings", sympathetic);

@@ -53,7 +53,7 @@ BodyModeDescription read_body_mode(const json::Value& value, const std::string& 
 BridgeDescription read_bridge(const json::Value& value, const std::string& path, json::Problems& problems) {
     Section reader(value, path, {"open_strings"}, problems);
     BridgeDescription bridge;
-    bridge.open_strings = reader.flag_or("open_strings", bridge.open_strings);
+    bridge.open_strings = reader.number_or("open_strings", bridge.open_strings);
     return bridge;
 }
 

@@ -214,8 +214,9 @@ struct BodyModeDescription {
 /// The bridge moves with the body: strings drive the body, it drives them, and each string the others
 /// (docs/engine/model.md, "The moving bridge").
 struct BridgeDescription {
-    /// Open strings that nobody plays ring along, unless the parameter `open_strings` damps them.
-    bool open_strings = true;
+    /// How freely open strings that nobody plays ring along, 0 to 1: 1 undamped, in between under a hand, 0
+    /// only with the sustain pedal, as under dampers.
+    double open_strings = 1;
 };
 
 /// How strings are given to notes; render_instrument() has the rules.

@@ -41,9 +41,11 @@ struct StoppedStringModel {
     /// pickups.cpp).
     AlignedVector<double> end_row;
     double end_rest_N = 0;  ///< end_row . q at rest [N]
-    /// What a metre of the bridge's displacement held over a frame does at most at the compiled tension:
-    /// raise the root of the string's energy by [J^(1/2)/m], bend the string as a point force of [N/m].
-    double end_root = 0, end_strength = 0;
+    /// By how much a metre of the bridge's displacement, held over a frame, raises the root of the string's
+    /// energy at most, at the compiled tension [J^(1/2)/m].
+    double end_root = 0;
+    double end_strength =
+        0;  ///< and the point force that would bend the string as far within the frame [N/m]
     /// kappa: what the end at a moving bridge resists while the modes stand still,
     /// sum_k end_row_k^2/(mu omega_k^2) + T/L [N/m]; 0 if the bridge is rigid.
     double bridge_stiffness_N_per_m = 0;
@@ -118,7 +120,7 @@ struct BridgeModel {
     /// Displacement under each string at a frame's end per newton held under each [m/N], strings x
     /// string_stride.
     AlignedVector<double> receptance;
-    bool open_strings = true;  ///< BridgeDescription::open_strings
+    double open_strings = 1;  ///< BridgeDescription::open_strings
 };
 
 /// A compiled instrument.

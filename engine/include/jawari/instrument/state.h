@@ -215,8 +215,9 @@ struct BridgeState {
     std::vector<VoiceOnBridge> voices;  ///< scratch, room for all
     std::size_t voice_count = 0;        ///< voices of the frame
     /// For outputs of strings: what of the body's motion each string has caused, strings x stride.
-    AlignedVector<double> y_of, v_of;
-    bool separates = false;  ///< outputs of strings are asked for
+    AlignedVector<double> y_of;
+    AlignedVector<double> v_of;  ///< the same of velocities
+    bool separates = false;      ///< outputs of strings are asked for
 };
 
 /// What the instrument has counted since make_instrument_state() or reset().

@@ -129,6 +129,10 @@ Check validate_output(const InstrumentDescription& instrument, double shortest_m
                 check_shape(indexed_place("body", i) + ".shape", body[i].shape, instrument.strings.size()))
             return failure;
     }
+    if (instrument.bridge) {
+        if (auto failure = checks::check("bridge.open_strings", instrument.bridge->open_strings, {0, 1}))
+            return failure;
+    }
     if (instrument.bridge && (moving == 0 || moving > limits::moving_body_modes))
         return Failure{"body", std::to_string(moving) + " modes with mass",
                        "1 to " + std::to_string(limits::moving_body_modes) + " where the bridge moves"};

@@ -20,8 +20,7 @@ constexpr double ease_s = 0.02;
 /// where there are none, or with the pedal.
 double freedom_of(const InstrumentModel& model, const InstrumentState& state, std::size_t s) {
     const ChannelState& controls = channel_of(state, state.bridge.channel);
-    const bool undamped = model.bridge.open_strings || model.strings[s].sympathetic || controls.sustain;
-    return undamped ? parameter_of(controls, ParameterId::OpenStrings) : 0.0;
+    return model.strings[s].sympathetic || controls.sustain ? 1.0 : model.bridge.open_strings;
 }
 
 /// A hand under which the first partial takes the string's release time without freedom, and longer with it.

@@ -8,7 +8,7 @@
 namespace jawari {
 
 /// Every control_frames: idle strings begin to answer while the bridge drives them, and what answers is
-/// damped as the parameter `open_strings` and the pedal say. Precondition: bridge_moves(model).
+/// damped as the bridge and the pedal say. Precondition: bridge_moves(model).
 void follow_answers(const InstrumentModel& model, InstrumentState& state) JAWARI_REALTIME;
 
 }  // namespace jawari

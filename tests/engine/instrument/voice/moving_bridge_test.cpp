@@ -369,35 +369,38 @@ TEST(MovingBridge, NeverHasMoreEnergyThanItWasGiven) {
 
 /// Two strings in unison on one bridge, the second sympathetic: it rings along, and stops when it is not
 /// free.
-InstrumentDescription with_sympathetic_string() {
+InstrumentDescription with_second_string(bool sympathetic, double freedom) {
     InstrumentDescription instrument = random_instrument(3);
     instrument.strings.resize(2, instrument.strings[0]);
     instrument.strings[0] = instrument.strings[1];
     instrument.strings[0].open_frequency_hz = instrument.strings[1].open_frequency_hz = 440;
-    instrument.strings[1].sympathetic = true;
+    instrument.strings[1].open_note = 61;
+    instrument.strings[1].sympathetic = sympathetic;
     for (auto& mode : instrument.body) mode.shape = {1, 1};
-    instrument.bridge = BridgeDescription{.open_strings = false};
+    instrument.bridge = BridgeDescription{.open_strings = freedom};
     return instrument;
 }
 
-double answer_of(const InstrumentModel& model, double freedom) {
+/// Energy of the second string over that of the first, half a second after a note on the first.
+double answer_of(bool sympathetic, double freedom, bool pedal) {
+    const auto compiled = compile_instrument(with_second_string(sympathetic, freedom), rate_hz);
+    EXPECT_TRUE(compiled.ok());
+    const InstrumentModel& model = compiled.value();
     InstrumentState state = make_instrument_state(model);
     std::vector<double> left(24000), right(24000);
-    const std::vector<InstrumentEvent> events{set_parameter(0, ParameterId::OpenStrings, freedom),
-                                              note_on(0, 60, 1)};
+    const std::vector<InstrumentEvent> events{set_sustain_pedal(0, pedal), note_on(0, 60, 1)};
     render_instrument(model, state, events, {left.data(), right.data(), {}}, left.size());
     return string_energy(model, state, 1) / string_energy(model, state, 0);
 }
 
-TEST(MovingBridge, SympatheticStringsAnswerAndNoKeyPlaysThem) {
-    const auto compiled = compile_instrument(with_sympathetic_string(), rate_hz);
-    ASSERT_TRUE(compiled.ok()) << compiled.failure().place;
-    const InstrumentModel& model = compiled.value();
-    EXPECT_EQ(model.strings[1].stopped[0].key, -1);
-    const double free = answer_of(model, 1);
+TEST(MovingBridge, OpenAndSympatheticStringsAnswer) {
+    const double free = answer_of(false, 1, false);
     EXPECT_GT(free, 1e-4);
-    EXPECT_LT(answer_of(model, 0.5), 0.1 * free);
-    EXPECT_EQ(answer_of(model, 0), 0);
+    EXPECT_LT(answer_of(false, 0.5, false), 0.1 * free);
+    EXPECT_EQ(answer_of(false, 0, false), 0);
+    EXPECT_EQ(answer_of(false, 0, true), free);  // dampers lift
+    EXPECT_EQ(answer_of(true, 0, false), free);  // no damper
+    EXPECT_EQ(compile_instrument(with_second_string(true, 0), rate_hz).value().strings[1].stopped[0].key, -1);
 }
 
 TEST(MovingBridge, BlocksDoNotChangeABitAndStringsAddUpToTheWhole) {

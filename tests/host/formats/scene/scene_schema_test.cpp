@@ -106,7 +106,7 @@ TEST(SceneSchema, IsPrintedByTheProgram) {
     const auto ran = test::jawari({"info", "--schema", "scene"});
     ASSERT_EQ(ran.exit_code, 0) << ran.err;
     EXPECT_EQ(Json::parse(ran.out), test::load_schema(schema_file));
-    EXPECT_EQ(Json::parse(test::jawari({"info", "--schema", "preset"}).out)["title"], "jawari.preset/2");
+    EXPECT_EQ(Json::parse(test::jawari({"info", "--schema", "preset"}).out)["title"], "jawari.preset/3");
     EXPECT_EQ(test::jawari({"info"}).exit_code, 2);
     EXPECT_EQ(test::jawari({"info", "--schema", "song"}).exit_code, 2);
 }
