@@ -17,7 +17,7 @@ using Complex = std::complex<double>;
 
 /// Newton's method: rounds, relative difference for the slope, longest relative step, relative error.
 constexpr int rounds = 40;
-constexpr double difference = 1e-6, longest_step = 0.03, close_enough = 1e-10;
+constexpr double difference = 1e-6, longest_step = 0.03, settled = 1e-10;
 /// Points over a third octave at which mobilities are averaged.
 constexpr int points_per_band = 17;
 
@@ -83,7 +83,7 @@ double coupled_first_partial(const InstrumentDescription& instrument, std::size_
         // Half a semitone at most: a step over a resonance of the body would lead to another partial.
         const double shortened = std::min(1.0, longest_step * std::abs(s) / std::abs(change));
         s -= shortened * change;
-        if (std::abs(change) < close_enough * std::abs(s)) break;
+        if (std::abs(change) < settled * std::abs(s)) break;
     }
     return s.imag() / (2 * pi);
 }
