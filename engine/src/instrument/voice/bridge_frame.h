@@ -14,7 +14,7 @@ namespace jawari {
 void begin_bridge_frame(const BridgeModel& bridge, BridgeState& state) JAWARI_REALTIME;
 
 /// Sets `mean`, and zeta_m and the exciters' forces of all voices of the frame, from what they answer.
-void solve_bridge_frame(const InstrumentModel& model, InstrumentState& state) JAWARI_REALTIME;
+void solve_bridge_frame(const InstrumentModel& model, InstrumentState& instrument) JAWARI_REALTIME;
 
 /// Moves the body by the frame, and gives it what contacts have changed (VoiceOnBridge::left_N).
 void end_bridge_frame(const BridgeModel& bridge, BridgeState& state) JAWARI_REALTIME;
