@@ -107,10 +107,11 @@ struct TouchState {
     /// G_ij = displacement at i at a frame's end per newton held at j [m/N]; behind the touches the exciter,
     /// then the bridge, whose "force" is its displacement [m] and whose "displacement" a force [N].
     std::array<double, voice_forces * voice_forces> compliance{};
-    bool outdated = true;           ///< compliance must be computed anew
-    std::uint64_t noises = 0;       ///< that have begun: no two are alike
-    AlignedVector<double> moved;    ///< scratch over modes
-    kernels::TouchedRows known;     ///< of the coming frame on a moving bridge, unless `count` is 0
+    bool outdated = true;         ///< compliance must be computed anew
+    std::uint64_t noises = 0;     ///< that have begun: no two are alike
+    AlignedVector<double> moved;  ///< scratch over modes
+    kernels::TouchedRows
+        known;  ///< of the coming frame on a moving bridge, but for the rows, unless `count` is 0
     std::uint64_t known_frame = 0;  ///< StringState::frame for which `known` holds
 };
 
@@ -163,8 +164,8 @@ struct PlayerWork {
     /// the order of the step [J].
     double quality_changes_J = 0;
     double noises_J = 0;  ///< work of the noise of touches; that of a rough finger is in exciters_J [J]
-    /// Moving bridge: what voices that fade, rise, end or bend give to the coupling, and what a body whose
-    /// numbers were lost had [J].
+    /// Moving bridge: what voices that begin, fade, rise, end, bend or change their quality give to the
+    /// coupling [J].
     double couplings_J = 0;
 };
 

@@ -120,7 +120,8 @@ struct BridgeModel {
     /// Displacement under each string at a frame's end per newton held under each [m/N], strings x
     /// string_stride.
     AlignedVector<double> receptance;
-    double open_strings = 1;  ///< BridgeDescription::open_strings
+    double least_drive_J = 0;  ///< energy of the body above which open strings begin to answer [J]
+    double open_strings = 1;   ///< BridgeDescription::open_strings
 };
 
 /// A compiled instrument.

@@ -202,8 +202,8 @@ struct BridgeState {
     AlignedVector<double> factor;   ///< its Cholesky factor, and the diagonal's inverses behind it
     bool stale = true;              ///< `matrix` must be summed anew
     bool summed = false;            ///< `matrix` has not been updated since it was summed
-    /// The same by voices, where they are fewer than modes: what `factor` was made of, weight and stiffness
-    /// of each.
+    /// The same by voices, where they are fewer than modes: how many `factor` was made
+    /// of, and string, weight and stiffness of each.
     std::vector<double> factorised;
     AlignedVector<double> pull;         ///< force of each voice, in the mean of the frame [N]
     AlignedVector<double> under_start;  ///< displacement under each string at the frame's start [m]

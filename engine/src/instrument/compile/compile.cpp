@@ -228,6 +228,16 @@ std::optional<Failure> compile_stops(InstrumentModel& model, const InstrumentDes
     return {};
 }
 
+/// The least energy that a string of the instrument answers with, as one that the body has.
+double least_drive(const InstrumentModel& model) {
+    double least_J = std::numeric_limits<double>::infinity();
+    for (const InstrumentStringModel& string : model.strings) {
+        const double rest_J = string.stopped[0].rest_energy_J;
+        if (rest_J > 0) least_J = std::min(least_J, rest_J);
+    }
+    return answer_energy_ratio * least_J;
+}
+
 std::vector<double> fade_shape(double output_rate_hz) {
     const std::uint64_t frames = frames_of(fade_s, output_rate_hz);
     std::vector<double> shape;
@@ -260,6 +270,7 @@ Result<InstrumentModel> compile_instrument(const InstrumentDescription& instrume
     for (std::size_t s = 0; s < instrument.strings.size(); ++s) {
         if (auto failure = compile_stops(model, instrument, s)) return *std::move(failure);
     }
+    model.bridge.least_drive_J = least_drive(model);
     return model;
 }
 

@@ -1,8 +1,5 @@
 #include "instrument/play/answering.h"
 
-#include <algorithm>
-#include <limits>
-
 #include "instrument/model/played_string.h"
 #include "instrument/play/control_targets.h"
 #include "instrument/touch/touches.h"
@@ -43,16 +40,6 @@ void damp_answer(const InstrumentModel& model, const InstrumentState& state, std
     }
 }
 
-/// The least energy that a string of this instrument answers with, as one that the body has.
-double least_drive(const InstrumentModel& model) {
-    double least_J = std::numeric_limits<double>::infinity();
-    for (const InstrumentStringModel& string : model.strings) {
-        const double rest_J = string.stopped[0].rest_energy_J;
-        if (rest_J > 0) least_J = std::min(least_J, rest_J);
-    }
-    return answer_energy_ratio * least_J;
-}
-
 void begin_to_answer(const InstrumentModel& model, InstrumentState& state, std::size_t s, double freedom) {
     InstrumentStringState& string = state.strings[s];
     Voice& voice = string.voices[0];
@@ -69,7 +56,7 @@ void begin_to_answer(const InstrumentModel& model, InstrumentState& state, std::
 
 void follow_answers(const InstrumentModel& model, InstrumentState& state) JAWARI_REALTIME {
     BridgeState& bridge = state.bridge;
-    bridge.drives = body_energy(model.bridge, bridge) > least_drive(model);
+    bridge.drives = body_energy(model.bridge, bridge) > model.bridge.least_drive_J;
     const bool may_begin = bridge.drives && state.frame >= bridge.answers_from;
     for (std::size_t s = 0; s < state.strings.size(); ++s) {
         InstrumentStringState& string = state.strings[s];

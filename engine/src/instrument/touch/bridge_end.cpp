@@ -95,10 +95,16 @@ bool fly_on_bridge(const StringModel& model, StringState& string, TouchState& to
     if (!flight.looks_ahead || string.counters.nonfinite_resets != resets) return true;
     touches.known.count = active.count;
     touches.known_frame = string.frame;
-    std::copy_n(flight.row.begin(), active.count, touches.known.row.begin());
     std::copy_n(flight.middle.begin(), active.count, touches.known.middle.begin());
     std::copy_n(flight.rise.begin(), active.count, touches.known.rise.begin());
     return true;
+}
+
+/// TouchState::known with the rows as they lie in this state: of a copy they lie elsewhere.
+kernels::TouchedRows known_paths(const TouchState& touches, const ActiveForces& active) {
+    kernels::TouchedRows paths = touches.known;
+    for (std::size_t a = 0; a < active.count; ++a) paths.row[a] = row_of(touches, active, a);
+    return paths;
 }
 
 }  // namespace
@@ -114,7 +120,7 @@ void begin_end_frame(const StringModel& model, const StringState& string, TouchS
     const bool known =
         !touches.outdated && touches.known.count == active.count && touches.known_frame == string.frame;
     if (touches.outdated) set_compliance_of_touches(model, touches, active);
-    frame.paths = known ? touches.known : paths_of_all(model, string, touches, active);
+    frame.paths = known ? known_paths(touches, active) : paths_of_all(model, string, touches, active);
     touches.known.count = 0;
     frame.answer = answer_to_bridge(model, touches, active, frame.paths);
     const std::size_t bridge = place_of_bridge(frame);

@@ -1,6 +1,7 @@
 #include "instrument/voice/bridge_frame.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "instrument/model/played_string.h"
@@ -13,13 +14,11 @@ namespace {
 /// The matrix of the system is summed anew at least this often, so that rounding of its updates does not add
 /// up.
 constexpr std::uint64_t summing_frames = 32;
-/// A body whose energy is below this is put to rest [J]: -200 dB of the least that is heard.
+/// A body whose energy is below this is put to rest [J]: below a mode of 1 kg at 1e-15 m/s.
 constexpr double still_J = 1e-30;
 /// Contacts change a body's speed by this share at least and at most of what the force that they add would
 /// do.
 constexpr double least_share = -1, largest_share = 3;
-/// More than any weight: string and weight as one number.
-constexpr double distinct_weights = 1e6;
 
 const double* shape_under(const BridgeModel& bridge, std::size_t s) {
     return bridge.shape.data() + s * bridge.stride;
@@ -195,11 +194,11 @@ bool is_factorised(BridgeState& state) {
     state.factorised[0] = order;
     for (std::size_t i = 0; i < state.voice_count; ++i) {
         const VoiceOnBridge& voice = state.voices[i];
-        double* known = state.factorised.data() + 1 + 2 * i;
-        const double weight = voice.weight + static_cast<double>(voice.string) * distinct_weights;
-        same = same && known[0] == weight && known[1] == voice.frame.stiffness_N_per_m;
-        known[0] = weight;
-        known[1] = voice.frame.stiffness_N_per_m;
+        const std::array<double, 3> now{static_cast<double>(voice.string), voice.weight,
+                                        voice.frame.stiffness_N_per_m};
+        double* known = state.factorised.data() + 1 + now.size() * i;
+        same = same && std::equal(now.begin(), now.end(), known);
+        std::copy(now.begin(), now.end(), known);
     }
     return same;
 }

@@ -74,7 +74,7 @@ BridgeState make_bridge_state(const BridgeModel& bridge, std::size_t strings, st
     for (auto* array : {&state.y_of, &state.v_of}) array->assign(strings * bridge.stride, 0.0);
     state.couplings.assign(voices, 0.0);
     state.voices.resize(voices);
-    state.factorised.assign(1 + 2 * bridge.count, 0.0);
+    state.factorised.assign(1 + 3 * bridge.count, 0.0);
     state.pull.assign(padded(voices), 0.0);
     state.under_start.assign(bridge.string_stride, 0.0);
     state.under_mean.assign(bridge.string_stride, 0.0);

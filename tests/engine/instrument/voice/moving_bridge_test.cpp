@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -442,6 +443,32 @@ TEST(MovingBridge, BlocksDoNotChangeABitAndStringsAddUpToTheWhole) {
         ASSERT_NEAR(strings[0][n] + strings[1][n] + strings[2][n], (left[n] + right[n]) / 2, 1e-9 * largest)
             << n;
     }
+}
+
+/// A copy of a state is a snapshot: it goes on by itself, under hands and exciters too.
+TEST(MovingBridge, ACopyGoesOnWithoutTheOriginal) {
+    InstrumentDescription instrument = random_instrument(5);
+    std::get<FingerDescription>(instrument.exciters[0].body).damping_kg_per_s = 0.1;
+    const auto compiled = compile_instrument(instrument, rate_hz);
+    ASSERT_TRUE(compiled.ok());
+    const InstrumentModel& model = compiled.value();
+    const std::vector<InstrumentEvent> begin{note_on(0, 60, 0.7)};
+    const std::vector<InstrumentEvent> end{note_off(0, 60)};
+    std::vector<double> begun(50), expected(4000), copied(4000);
+    auto original = std::make_unique<InstrumentState>(make_instrument_state(model));
+    render_instrument(model, *original, begin, begun.data(), begun.size());
+    ASSERT_TRUE(original->strings[0].voices[0].touches.known.count > 1);
+    InstrumentState copy = *original;
+    render_instrument(model, *original, end, expected.data(), expected.size());
+    for (InstrumentStringState& string : original->strings) {
+        for (Voice& voice : string.voices) {
+            for (Touch& touch : voice.touches.touches) std::fill(touch.row.begin(), touch.row.end(), 1e9);
+            std::fill(voice.touches.exciter.row.begin(), voice.touches.exciter.row.end(), 1e9);
+        }
+    }
+    original.reset();
+    render_instrument(model, copy, end, copied.data(), copied.size());
+    EXPECT_EQ(copied, expected);
 }
 
 /// A string that has lost its numbers keeps them to itself.
