@@ -24,7 +24,8 @@ ALLOWED_RISE = 0.10
 
 
 def valgrind(*command):
-    done = subprocess.run(["valgrind", "--error-exitcode=9", *command], capture_output=True, text=True, check=False)
+    done = subprocess.run(["valgrind", "--error-exitcode=9", *command], capture_output=True, text=True, check=False,
+                          cwd=ROOT)
     if done.returncode != 0:
         sys.exit(f"count.py: {' '.join(map(str, command))}: {done.stderr.strip().splitlines()[-1:]}")
     return done
@@ -53,7 +54,7 @@ def main():
     parser.add_argument("--build", default=ROOT / "build/release", type=pathlib.Path)
     parser.add_argument("--update", action="store_true")
     options = parser.parse_args()
-    program = options.build / "bin/kernel_loop"
+    program = options.build.resolve() / "bin/kernel_loop"
     names = subprocess.run([program, "--list"], check=True, capture_output=True, text=True).stdout.splitlines()
     isa = instruction_set(program)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

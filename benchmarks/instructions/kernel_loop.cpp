@@ -17,6 +17,7 @@
 #include "jawari/denormals.h"
 #include "jawari/jawari.h"
 #include "preset_chord.h"
+#include "ringing_strings.h"
 #include "string/kernels/flight.h"
 #include "string/kernels/mode_bounds.h"
 #include "string/kernels/mode_run.h"
@@ -148,6 +149,15 @@ void chord(const std::string& preset) {
     counted([&] { playing.play(); });
 }
 
+/// The classical guitar on a moving bridge.
+constexpr const char* coupled_guitar = "docs/examples/render/coupled-guitar.json";
+
+void ring(bool moves) {
+    const NoDenormals guard;
+    RingingStrings playing(coupled_guitar, moves);
+    counted([&] { playing.play(); });
+}
+
 const Entry kernels_and_scenes[] = {
     {"run_modes/0", [] { run_modes(0); }},
     {"run_modes/1", [] { run_modes(1); }},
@@ -169,6 +179,8 @@ const Entry kernels_and_scenes[] = {
      [] { render_scene("lab/one-contact", 2016000, ImpactLaw::Signorini, skip_all, 0, 480); }},
     {"fretless, first 120 frames at 240 kHz",
      [] { render_scene("lab/fretless", 240000, ImpactLaw::Signorini, skip_all, 0, 120); }},
+    {"six strings on a rigid bridge, 4800 frames", [] { ring(false); }},
+    {"six strings on a moving bridge, 4800 frames", [] { ring(true); }},
 };
 
 std::vector<Entry> entries() {

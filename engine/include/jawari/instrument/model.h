@@ -116,7 +116,6 @@ struct BridgeModel {
     AlignedVector<double> gain_right;  ///< output on the right per velocity [s/m]
     AlignedVector<double> shape;       ///< under each string, strings x stride
     std::size_t string_stride = 0;     ///< padded(strings)
-    AlignedVector<double> under;       ///< the same by modes, count x string_stride
     /// Displacement under each string at a frame's end per newton held under each [m/N], strings x
     /// string_stride.
     AlignedVector<double> receptance;

@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "jawari/detail/end_run.h"
+#include "jawari/detail/index_list.h"
 #include "jawari/detail/string_state.h"
 #include "jawari/detail/touches.h"
 #include "jawari/instrument/model.h"
@@ -90,6 +92,7 @@ struct Voice {
     std::size_t rise_frame = 0;           ///< of fading in after legato; at the shape's end: fully in
     QualityRemainder remainder;           ///< of the last change of quality level
     BridgeEnd end;                        ///< on a bridge that moves
+    EndRun run;                           ///< of frames that it flies together on a bridge that moves
     VoiceGains gains;                     ///< in force; they follow `targets` smoothly
     VoiceGains targets;                   ///< set every 32 output frames from the channel's controls
 };
@@ -177,7 +180,9 @@ struct VoiceOnBridge {
     std::size_t voice = 0;   ///< index of the string's voice
     double weight = 0;       ///< BridgeEnd::weight in the frame; 0 also if its numbers are not finite
     double zeta_m = 0;       ///< mean displacement of the bridge as the voice feels it [m]
+    double rest_N = 0;       ///< StoppedStringModel::end_rest_N of the voice, in steady frames [N]
     double left_N = 0;       ///< by which contacts have changed the force at the frame's end [N]
+    bool in_run = false;     ///< it flies in a run (EndRun)
     BridgeEndFrame frame;    ///< what it answers
 };
 
@@ -206,8 +211,9 @@ struct BridgeState {
     /// of, and string, weight and stiffness of each.
     std::vector<double> factorised;
     AlignedVector<double> pull;         ///< force of each voice, in the mean of the frame [N]
-    AlignedVector<double> under_start;  ///< displacement under each string at the frame's start [m]
-    AlignedVector<double> under_mean;   ///< its mean over the frame in free motion [m]
+    std::vector<double> under_mean;     ///< mean displacement under each string in free motion [m]
+    std::vector<double> string_pull;    ///< of the voices of each string together, if it is sounding [N]
+    IndexList sounding;                 ///< strings with voices in the frame
     AlignedVector<double> mean;         ///< mean displacement in the frame [m]
     AlignedVector<double> force_N;      ///< held in the frame [N]
     AlignedVector<double> path;         ///< change of y over the frame [m]

@@ -5,8 +5,10 @@
 #include "instrument/model/played_string.h"
 #include "instrument/play/control_targets.h"
 #include "instrument/play/impacts.h"
+#include "instrument/play/steady_frames.h"
 #include "instrument/voice/body.h"
 #include "instrument/voice/bridge_frame.h"
+#include "instrument/voice/bridge_kernels.h"
 #include "instrument/voice/coupled_voice.h"
 #include "instrument/voice/voice.h"
 
@@ -17,9 +19,12 @@ namespace {
 void find_voices(InstrumentState& state) {
     BridgeState& bridge = state.bridge;
     bridge.voice_count = 0;
+    bridge.sounding.clear();
     for (std::size_t s = 0; s < state.strings.size(); ++s) {
         const InstrumentStringState& string = state.strings[s];
-        for (std::size_t v = 0; string.busy > 0 && v < string.voices.size(); ++v) {
+        if (string.busy == 0) continue;
+        bridge.sounding.push(s);
+        for (std::size_t v = 0; v < string.voices.size(); ++v) {
             if (string.voices[v].phase == VoicePhase::Idle) continue;
             VoiceOnBridge& voice = bridge.voices[bridge.voice_count++];
             voice.string = s;
@@ -27,12 +32,6 @@ void find_voices(InstrumentState& state) {
             voice.left_N = 0;
         }
     }
-}
-
-/// The factor of the body's sound follows volume, expression and body mix of the last note's channel.
-void follow_level(InstrumentState& state, double smoothing) {
-    const double target = body_level(state, state.bridge.channel);
-    state.bridge.level += smoothing * (target - state.bridge.level);
 }
 
 /// Voices cross the frame; string by string, what they give is added up.
@@ -54,22 +53,10 @@ void end_voices(const InstrumentModel& model, InstrumentState& state, const Stri
         run.right[n] += signals.right;
         run.bridge_N[n] += signals.bridge_N;
         if (s >= outputs.strings.size()) continue;
-        outputs.strings[s][outputs.first + n] = signals.pickups;
+        outputs.strings[s][outputs.first + n] += signals.pickups;
         if (state.string_bodies.empty()) continue;
         const StereoSample body = advance_body(model.body, state.string_bodies[s], signals.bridge_N);
         outputs.strings[s][outputs.first + n] += (body.left + body.right) / 2;
-    }
-}
-
-/// Adds to each string's output what of the body's motion it has caused, in the mean of both channels.
-void hear_strings(const BridgeModel& bridge, const BridgeState& state, const StringOutputs& outputs,
-                  std::size_t n) {
-    for (std::size_t s = 0; s < outputs.strings.size(); ++s) {
-        const double* v = state.v_of.data() + s * bridge.stride;
-        double sum = 0;
-        for (std::size_t j = 0; j < bridge.count; ++j)
-            sum += (bridge.gain_left[j] + bridge.gain_right[j]) / 2 * v[j];
-        outputs.strings[s][outputs.first + n] += state.level * sum;
     }
 }
 
@@ -90,47 +77,70 @@ void let_go(const InstrumentModel& model, InstrumentState& state) {
     }
 }
 
-void hear_body(const BridgeModel& bridge, const BridgeState& state, double& left, double& right) {
-    double of_left = 0, of_right = 0;
-    for (std::size_t j = 0; j < bridge.count; ++j) {
-        of_left += bridge.gain_left[j] * state.v[j];
-        of_right += bridge.gain_right[j] * state.v[j];
-    }
-    left += state.level * of_left;
-    right += state.level * of_right;
-}
-
 bool is_still(const InstrumentState& state) {
     return !state.busy && !state.bridge.ringing && !state.body.ringing;
 }
 
+/// Frame n, voice by voice.
+void pass_frame(const InstrumentModel& model, InstrumentState& state, const StringOutputs& outputs,
+                double smoothing, std::size_t n, const StereoRun& run) {
+    BridgeState& bridge = state.bridge;
+    follow_level(state, smoothing);
+    begin_bridge_frame(model.bridge, bridge);
+    for (std::size_t i = 0; i < bridge.voice_count; ++i) begin_coupled_frame(model, state, bridge.voices[i]);
+    solve_bridge_frame(model, state);
+    end_voices(model, state, outputs, smoothing, n, run);
+    for (std::size_t s = 0; s < outputs.strings.size(); ++s) advance_body_of_string(model.bridge, bridge, s);
+    end_bridge_frame(model.bridge, bridge);
+    hear_strings(model.bridge, bridge, outputs, n);
+    const kernels::BodyMotion moving = kernels::hear_body(model.bridge, bridge.v.data());
+    run.left[n] += bridge.level * moving.left;
+    run.right[n] += bridge.level * moving.right;
+    state.frame += 1;
+}
+
 }  // namespace
+
+void follow_level(InstrumentState& state, double smoothing) JAWARI_REALTIME {
+    const double target = body_level(state, state.bridge.channel);
+    state.bridge.level += smoothing * (target - state.bridge.level);
+}
+
+void hear_strings(const BridgeModel& bridge, const BridgeState& state, const StringOutputs& outputs,
+                  std::size_t n) JAWARI_REALTIME {
+    for (std::size_t s = 0; s < outputs.strings.size(); ++s) {
+        const double* v = state.v_of.data() + s * bridge.stride;
+        double sum = 0;
+        for (std::size_t j = 0; j < bridge.count; ++j)
+            sum += (bridge.gain_left[j] + bridge.gain_right[j]) / 2 * v[j];
+        outputs.strings[s][outputs.first + n] += state.level * sum;
+    }
+}
 
 void advance_coupled(const InstrumentModel& model, InstrumentState& state, const StringOutputs& outputs,
                      double smoothing, const StereoRun& run) JAWARI_REALTIME {
     BridgeState& bridge = state.bridge;
     bridge.separates = !outputs.strings.empty();
-    for (std::size_t n = 0; n < run.frames; ++n, ++state.frame) {
-        follow_level(state, smoothing);
+    for (double* string : outputs.strings) std::fill_n(string + outputs.first, run.frames, 0.0);
+    for (std::size_t n = 0; n < run.frames;) {
         if (is_still(state)) {
-            for (double* string : outputs.strings) string[outputs.first + n] = 0;
+            follow_level(state, smoothing);
+            ++n;
+            ++state.frame;
             continue;
         }
         find_voices(state);
-        begin_bridge_frame(model.bridge, bridge);
-        for (std::size_t i = 0; i < bridge.voice_count; ++i)
-            begin_coupled_frame(model, state, bridge.voices[i]);
-        solve_bridge_frame(model, state);
-        end_voices(model, state, outputs, smoothing, n, run);
-        for (std::size_t s = 0; s < outputs.strings.size(); ++s)
-            advance_body_of_string(model.bridge, bridge, s);
-        end_bridge_frame(model.bridge, bridge);
-        hear_strings(model.bridge, bridge, outputs, n);
+        std::size_t passed = pass_steady_frames(model, state, outputs, smoothing, n, run);
+        if (passed == 0) {
+            pass_frame(model, state, outputs, smoothing, n, run);
+            passed = 1;
+        }
         let_go(model, state);
-        hear_body(model.bridge, bridge, run.left[n], run.right[n]);
-        const StereoSample body = advance_body(model.body, state.body, run.bridge_N[n]);
-        run.left[n] += body.left;
-        run.right[n] += body.right;
+        for (const std::size_t end = n + passed; n < end; ++n) {
+            const StereoSample body = advance_body(model.body, state.body, run.bridge_N[n]);
+            run.left[n] += body.left;
+            run.right[n] += body.right;
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/assert.h"
+#include "instrument/model/played_string.h"
 #include "instrument/play/answering.h"
 #include "instrument/play/control_targets.h"
 #include "instrument/play/controls.h"
@@ -14,6 +15,7 @@
 #include "instrument/voice/body.h"
 #include "instrument/voice/bridge_model.h"
 #include "instrument/voice/coupled_voice.h"
+#include "instrument/voice/end_run.h"
 #include "instrument/voice/pickups.h"
 #include "instrument/voice/voice.h"
 
@@ -23,6 +25,7 @@ namespace {
 /// Frames that are computed in one go, string by string: a voice's numbers then stay in the cache.
 constexpr std::size_t longest_run = control_frames;
 static_assert(longest_run <= longest_voice_run);
+static_assert(control_frames == longest_end_run);  // controls are followed where every run of a voice ends
 
 /// The signals of a run.
 struct Run {
@@ -122,6 +125,25 @@ void advance(const InstrumentModel& model, InstrumentState& state, std::span<dou
     state.frame += run.frames;
 }
 
+/// Calls act(string, voice) for voices on a moving bridge.
+template <class Act>
+void for_coupled_voices(const InstrumentModel& model, InstrumentState& state, Act act) {
+    if (!bridge_moves(model) || !state.busy) return;
+    for (std::size_t s = 0; s < state.strings.size(); ++s) {
+        if (state.strings[s].busy == 0) continue;
+        const InstrumentStringModel& string = string_of(model, state, s);
+        for (Voice& voice : state.strings[s].voices) {
+            if (voice.phase != VoicePhase::Idle) act(voice_model(string, voice), voice);
+        }
+    }
+}
+
+/// Before something happens to voices: their modes are those of now.
+void settle_voices(const InstrumentModel& model, InstrumentState& state) {
+    for_coupled_voices(model, state,
+                       [](const StringModel& string, Voice& voice) { settle_run(string, voice); });
+}
+
 /// Calls sink(n, left, right) for every frame.
 template <class Sink>
 void render_frames(const InstrumentModel& model, InstrumentState& state,
@@ -132,9 +154,10 @@ void render_frames(const InstrumentModel& model, InstrumentState& state,
     std::size_t next = 0;
     Run run;
     for (std::size_t n = 0; n < frames; n += run.frames) {
-        start_pending_strokes(model, state);
         std::size_t due = next;
         while (due < events.size() && events[due].frame <= n) ++due;
+        if (due > next || state.waiting) settle_voices(model, state);
+        start_pending_strokes(model, state);
         apply_events(model, state, events.subspan(next, due - next));
         next = due;
         if (state.frame % control_frames == 0) {
@@ -146,8 +169,11 @@ void render_frames(const InstrumentModel& model, InstrumentState& state,
         advance(model, state, strings, n, smoothing, run);
         for (std::size_t i = 0; i < run.frames; ++i) sink(n + i, run.left[i], run.right[i]);
     }
+    if (next < events.size()) settle_voices(model, state);
     if (next < events.size()) start_pending_strokes(model, state);
     apply_events(model, state, events.subspan(next));
+    for_coupled_voices(model, state,
+                       [](const StringModel& string, Voice& voice) { show_run(string, voice); });
 }
 
 }  // namespace

@@ -134,6 +134,7 @@ void set_bend(const StoppedStringModel& stopped, Voice& voice, double semitones,
     const double work_J = energy(bend.active ? bend.model : stopped.string, string) - before;
     if (std::isfinite(work_J)) work.bends_J += work_J;
     voice.touches.outdated = true;
+    voice.run.outdated = true;
     forget_bounds(string);
     forget_responses(string);
 }

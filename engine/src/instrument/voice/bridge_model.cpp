@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "instrument/voice/bridge_kernels.h"
 #include "instrument/voice/oscillator.h"
 
 namespace jawari {
@@ -33,12 +34,10 @@ void append_mode(BridgeModel& bridge, const InstrumentDescription& instrument,
 /// The tables by strings.
 void set_by_strings(BridgeModel& bridge, std::size_t strings) {
     bridge.string_stride = padded(strings);
-    bridge.under.assign(bridge.count * bridge.string_stride, 0.0);
     bridge.receptance.assign(strings * bridge.string_stride, 0.0);
     for (std::size_t j = 0; j < bridge.count; ++j) {
         for (std::size_t s = 0; s < strings; ++s) {
             const double shape = bridge.shape[s * bridge.stride + j];
-            bridge.under[j * bridge.string_stride + s] = shape;
             for (std::size_t t = 0; t < strings; ++t)
                 bridge.receptance[s * bridge.string_stride + t] +=
                     bridge.y_held[j] * shape * bridge.shape[t * bridge.stride + j];
@@ -52,14 +51,17 @@ BridgeModel bridge_model(const InstrumentDescription& instrument, double output_
     BridgeModel bridge;
     if (!instrument.bridge) return bridge;
     bridge.open_strings = instrument.bridge->open_strings;
-    bridge.stride = padded(instrument.body.size());
+    const auto moving = [&](const BodyModeDescription& mode) {
+        return moves_bridge(instrument, mode) && is_audible(mode, output_rate_hz);
+    };
+    bridge.stride = padded(
+        static_cast<std::size_t>(std::count_if(instrument.body.begin(), instrument.body.end(), moving)));
     for (auto* array : {&bridge.yy, &bridge.yv, &bridge.vy, &bridge.vv, &bridge.y_held, &bridge.v_held,
                         &bridge.mass_kg, &bridge.stiffness, &bridge.gain_left, &bridge.gain_right})
         array->assign(bridge.stride, 0.0);
     bridge.shape.assign(instrument.strings.size() * bridge.stride, 0.0);
     for (const BodyModeDescription& mode : instrument.body) {
-        if (moves_bridge(instrument, mode) && is_audible(mode, output_rate_hz))
-            append_mode(bridge, instrument, mode, output_rate_hz);
+        if (moving(mode)) append_mode(bridge, instrument, mode, output_rate_hz);
     }
     set_by_strings(bridge, instrument.strings.size());
     return bridge;
@@ -76,8 +78,9 @@ BridgeState make_bridge_state(const BridgeModel& bridge, std::size_t strings, st
     state.voices.resize(voices);
     state.factorised.assign(1 + 3 * bridge.count, 0.0);
     state.pull.assign(padded(voices), 0.0);
-    state.under_start.assign(bridge.string_stride, 0.0);
-    state.under_mean.assign(bridge.string_stride, 0.0);
+    state.under_mean.assign(strings, 0.0);
+    state.sounding.allocate(strings);
+    state.string_pull.assign(strings, 0.0);
     return state;
 }
 
@@ -102,10 +105,7 @@ void reset_bridge(BridgeState& state) JAWARI_REALTIME {
 }
 
 double body_energy(const BridgeModel& bridge, const BridgeState& state) JAWARI_REALTIME {
-    double sum = 0;
-    for (std::size_t j = 0; j < bridge.count; ++j)
-        sum += bridge.mass_kg[j] * state.v[j] * state.v[j] + bridge.stiffness[j] * state.y[j] * state.y[j];
-    return sum / 2;
+    return kernels::energy_of_body(bridge, state.y.data(), state.v.data());
 }
 
 double end_stiffness(const StringModel& model, const double* end_row, double tension_N,

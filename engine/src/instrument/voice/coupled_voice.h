@@ -15,6 +15,11 @@ namespace jawari {
 void begin_coupled_frame(const InstrumentModel& model, InstrumentState& state,
                          VoiceOnBridge& on_bridge) JAWARI_REALTIME;
 
+/// Whether the voice goes on in a run in which only its motion changes: its weight and what it answers stay;
+/// sets both then.
+bool goes_on_steadily(const InstrumentModel& model, const InstrumentStringModel& string, Voice& voice,
+                      VoiceOnBridge& on_bridge) JAWARI_REALTIME;
+
 /// Crosses the frame at VoiceOnBridge::zeta_m; sets left_N and adds what the voice gives to the outputs but
 /// for the body.
 void end_coupled_frame(const InstrumentModel& model, InstrumentState& state, VoiceOnBridge& on_bridge,

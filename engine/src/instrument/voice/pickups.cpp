@@ -149,6 +149,13 @@ void set_output_rows(StoppedStringModel& stopped, const InstrumentDescription& i
         product(stopped.bridge_row.data(), model.shape->rest_displacement, model.shape->stride);
 }
 
+std::size_t output_rows(const InstrumentModel& model) JAWARI_REALTIME {
+    std::size_t rows = model.body.count > 0 ? 1 : 0;
+    for (const PickupDescription& pickup : model.pickups)
+        rows += (reads_velocity(pickup) ? 1U : 0U) + (reads_displacement(pickup) ? 1U : 0U);
+    return rows;
+}
+
 void set_output_readings(const InstrumentModel& model, const StoppedStringModel& stopped,
                          OutputReadings& readings) JAWARI_REALTIME {
     readings.count = 0;

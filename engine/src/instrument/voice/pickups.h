@@ -31,6 +31,9 @@ struct OutputReadings {  // NOLINT(cppcoreguidelines-pro-type-member-init)
     [[nodiscard]] std::span<const Reading> span() const { return {rows.data(), count}; }
 };
 
+/// OutputReadings::count of a voice.
+std::size_t output_rows(const InstrumentModel& model) JAWARI_REALTIME;
+
 /// Sets the rows: those of the pickups in their order, velocity before displacement, then the bridge's.
 void set_output_readings(const InstrumentModel& model, const StoppedStringModel& stopped,
                          OutputReadings& readings) JAWARI_REALTIME;

@@ -64,6 +64,7 @@ void change_voice(const InstrumentModel& model, const InstrumentStringModel& fro
     const StringModel& now = voice_model(to, voice);
     notice_change(now, voice.string);
     rewrite_touches(now, voice.touches, kept);
+    voice.run.outdated = true;
     const double change_J = energy(now, voice.string) - before;
     if (std::isfinite(change_J)) work.quality_changes_J += change_J;
     voice.remainder = {};

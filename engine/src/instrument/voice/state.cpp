@@ -5,6 +5,7 @@
 #include "base/assert.h"
 #include "instrument/voice/body.h"
 #include "instrument/voice/bridge_model.h"
+#include "instrument/voice/end_run.h"
 #include "instrument/voice/voice.h"
 #include "jawari/instrument/qualities.h"
 
@@ -22,7 +23,10 @@ InstrumentStringState make_string(const InstrumentModel& model, std::size_t s) {
     InstrumentStringState string;
     const StringSizes sizes = largest_sizes(model, s);
     const std::size_t voices = model.strings[s].stopped.size() == 1 ? 1 : voices_per_string;
-    for (std::size_t v = 0; v < voices; ++v) string.voices.push_back(make_voice(sizes));
+    for (std::size_t v = 0; v < voices; ++v) {
+        string.voices.push_back(make_voice(sizes));
+        string.voices.back().run = make_end_run(model, sizes.stride);
+    }
     return string;
 }
 
@@ -113,6 +117,9 @@ void set_play_mode(InstrumentState& state, PlayMode mode) JAWARI_REALTIME {
 void set_clock(InstrumentState& state, std::uint64_t frame) JAWARI_REALTIME {
     state.frame = frame;
     state.strokes_until = frame;
+    for (InstrumentStringState& string : state.strings) {
+        for (Voice& voice : string.voices) forget_run(voice);
+    }
 }
 
 bool is_held(const InstrumentModel& model, const InstrumentState& state, std::size_t string) JAWARI_REALTIME {

@@ -49,6 +49,15 @@ double force_at(const StoppedStringModel& stopped, double full_force_N, double d
 /// acceleration, is held over each of them.
 constexpr std::uint64_t shortest_tangent_frames = 4;
 
+/// Another string is about to lie on the voice's end.
+void begin_anew(EndRun& run) {
+    run.frames = run.passed = 0;
+    run.not_before = 0;
+    run.still_m = run.swing_m = 0;
+    run.shown = false;
+    run.outdated = true;
+}
+
 /// A stroke on one voice.
 struct Strike {
     const InstrumentModel& model;
@@ -179,6 +188,7 @@ void reset_voice(Voice& voice) JAWARI_REALTIME {
     voice.rise_frame = 0;
     voice.remainder = {};
     voice.end = {};
+    begin_anew(voice.run);
     voice.gains = {};
     voice.targets = {};
 }
@@ -195,6 +205,7 @@ void start_voice(const InstrumentModel& model, const InstrumentStringModel& stri
     voice.rise_frame = model.fade_shape.size();
     voice.remainder = {};
     voice.end = {};
+    begin_anew(voice.run);
     voice.slide.active = false;
     voice.rests_on_obstacles = stopped.held_energy_J != 0;
     forget_bend(voice);
@@ -236,7 +247,7 @@ void advance_voice(const InstrumentModel& model, const InstrumentStringModel& st
     const StringModel& coefficients = voice_model(string, voice);
     OutputReadings readings;  // NOLINT(cppcoreguidelines-pro-type-member-init): set as far as it is read
     set_output_readings(model, string.stopped[voice.fret], readings);
-    VoiceRun run{model, string, voice, smoothing, state, readings};
+    VoiceRun run{model, string, voice, smoothing, state, readings, state.frame};
     TouchedRun touched;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
     const bool flies = only_flies(coefficients, run);
     if (flies) touched.read_row = readings.rows[0].row;

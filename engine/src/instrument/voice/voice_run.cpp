@@ -5,6 +5,7 @@
 
 #include "instrument/touch/touches.h"
 #include "instrument/voice/bend.h"
+#include "instrument/voice/bridge_model.h"
 
 namespace jawari {
 namespace {
@@ -39,10 +40,11 @@ void add_remainder(const InstrumentModel& model, QualityRemainder& remainder, do
     remainder.active = remainder.frame < model.fade_shape.size();
 }
 
+/// `clock`: of the looks at its energy.
 bool has_ended(const InstrumentModel& model, const InstrumentStringModel& string,
-               const InstrumentState& state, Voice& voice) {
+               const InstrumentState& state, Voice& voice, std::uint64_t clock) {
     if (voice.fading) return voice.fade_frame >= model.fade_shape.size();
-    if (voice.age % rest_check_frames != 0 || voice.touches.exciter.phase != ExciterPhase::None) return false;
+    if (clock % rest_check_frames != 0 || voice.touches.exciter.phase != ExciterPhase::None) return false;
     const double rest_J = string.stopped[voice.fret].rest_energy_J;
     if (voice.phase == VoicePhase::Answering)
         return voice_energy(string, voice) < answer_energy_ratio * rest_J && !state.bridge.drives;
@@ -104,7 +106,9 @@ void add_signals(VoiceRun& run, std::size_t n, std::uint64_t resets, VoiceSignal
     sum.left += signals.left;
     sum.right += signals.right;
     sum.bridge_N += signals.bridge_N;
-    if (has_ended(model, run.string, run.state, voice)) finish(voice, run.state);
+    // On a moving bridge the instrument's frames count: where runs end, a voice's modes are known.
+    const std::uint64_t clock = bridge_moves(model) ? run.frame + n + 1 : voice.age;
+    if (has_ended(model, run.string, run.state, voice, clock)) finish(voice, run.state);
 }
 
 }  // namespace jawari

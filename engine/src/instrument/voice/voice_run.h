@@ -20,6 +20,7 @@ struct VoiceRun {
     double smoothing;
     InstrumentState& state;
     OutputReadings& readings;
+    std::uint64_t frame;  ///< InstrumentState::frame of the run's frame 0
 };
 
 /// Frames until the voice may end: the last of a fade, or one after which its energy is looked at.

@@ -19,9 +19,6 @@ constexpr std::uint64_t refresh_period = 32;
 /// Frames between refreshes under excitation, where the bounds grow with every frame.
 constexpr std::uint64_t excited_refresh_period = 8;
 
-/// The share of the way to the nearest contact that passive forces may bend the string by within a frame.
-constexpr double share_of_forces = 0.1;
-
 /// Puts the modes behind the last one that matters to rest; they leave the sums.
 void drop_weak_modes(const StringModel& model, StringState& state, const kernels::LargestBounds& largest) {
     const GapBounds& bounds = state.certificate.bounds;
@@ -235,16 +232,15 @@ void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIM
     bounds.unit_kick.modes = 0;
 }
 
-void wake_excited_modes(StringState& state) JAWARI_REALTIME {
-    JAWARI_ASSERT(state.excitation.modes <= state.displacement.size());
-    const std::size_t excited = state.excitation.modes;
-    if (excited <= state.active_modes) return;
+void wake_modes(StringState& state, std::size_t modes) JAWARI_REALTIME {
+    JAWARI_ASSERT(modes <= state.displacement.size());
+    if (modes <= state.active_modes) return;
     GapBounds& bounds = state.certificate.bounds;
     for (auto* array : {&bounds.speed, &bounds.extent, &bounds.detour}) {
         std::fill(array->begin() + static_cast<std::ptrdiff_t>(state.active_modes),
-                  array->begin() + static_cast<std::ptrdiff_t>(excited), 0.0);
+                  array->begin() + static_cast<std::ptrdiff_t>(modes), 0.0);
     }
-    state.active_modes = excited;
+    state.active_modes = modes;
 }
 
 void add_kicks(const StringModel& model, StringState& state) JAWARI_REALTIME {

@@ -31,6 +31,9 @@ inline double lookahead(const StringModel& model) {
     return looks_ahead(model.shape->law) ? model.shape->step_s / 2 : 0.0;
 }
 
+/// The share of the way to the nearest contact that passive forces may bend a clear string by within a frame.
+inline constexpr double share_of_forces = 0.1;
+
 /// Up to this many contacts each has bounds of its own; more share them in groups of neighbours.
 inline constexpr std::size_t contacts_with_own_bounds = 64;
 
@@ -79,8 +82,8 @@ std::uint64_t frames_until_refresh(const StringState& state) JAWARI_REALTIME;
 /// and a faded string fall asleep.
 void refresh_bounds(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
-/// Modes that forces reach join the sums; until then they are at rest.
-void wake_excited_modes(StringState& state) JAWARI_REALTIME;
+/// The first `modes` (padded) modes, which forces reach, join the sums; until then they are at rest.
+void wake_modes(StringState& state, std::size_t modes) JAWARI_REALTIME;
 
 /// Adds what the excitation of the coming frame does to the bounds.
 void add_kicks(const StringModel& model, StringState& state) JAWARI_REALTIME;

@@ -21,7 +21,8 @@ double frame_travel(const StringModel& model, double speed) {
 /// Whether the clearance certifies a group for as long as the string flies freely.
 bool stays_clear(const StringModel& model, const StringState& state, std::size_t g) {
     const GapBounds& bounds = state.certificate.bounds;
-    return !is_excited(state) && bounds.group_clearance[g] > lookahead(model) * bounds.group_speed[g];
+    return !is_excited(state) &&
+           bounds.group_clearance[g] > lookahead(model) * bounds.group_speed[g] + bounds.kicks.overtones;
 }
 
 /// forecast.watched <- contacts that neither their odometer nor their group's clearance certifies for
@@ -29,7 +30,7 @@ bool stays_clear(const StringModel& model, const StringState& state, std::size_t
 void find_watched(const StringModel& model, StringState& state, double frames) {
     const GapBounds& bounds = state.certificate.bounds;
     const auto limit_of = [&](std::size_t g) {
-        return bounds.group_odometer[g] +
+        return bounds.group_odometer[g] + bounds.kicks.overtones +
                gap_speed(state, g) * (frame_length(model) * frames + lookahead(model));
     };
     IndexList& groups = state.certificate.expired_groups;

@@ -137,7 +137,7 @@ void begin_unplanned_frame(const StringModel& model, StringState& state) {
     if (planned_frames(state) > 0) forget_bounds(state);
     if (state.asleep) notice_change(model, state);
     forget_frame_impulses(state);
-    wake_excited_modes(state);
+    wake_modes(state, state.excitation.modes);
 }
 
 /// Makes the bounds hold for the coming frame, which may put a faded string to sleep.
@@ -197,7 +197,7 @@ void end_frame(const StringModel& model, StringState& state, bool finite) {
 
 }  // namespace
 
-BroadPhaseAnswer plan_frames(const StringModel& model, StringState& state) JAWARI_REALTIME {
+BroadPhaseAnswer plan_frames(const StringModel& model, StringState& state, double reserve_m) JAWARI_REALTIME {
     const bool may_fly = state.skipping.flight && !is_excited(state) && !steps_uniformly(model, state);
     if (state.asleep || !may_fly) return BroadPhaseAnswer::NotAsked;
     if (planned_frames(state) > 0) return BroadPhaseAnswer::Planned;
@@ -205,6 +205,7 @@ BroadPhaseAnswer plan_frames(const StringModel& model, StringState& state) JAWAR
     freshen_bounds(model, state);
     if (state.asleep) return BroadPhaseAnswer::NotAsked;
     if (state.certificate.validity.direct) return BroadPhaseAnswer::PlanFailed;
+    state.certificate.bounds.kicks.overtones += reserve_m;
     plan_free_frames(model, state);
     return planned_frames(state) > 0 ? BroadPhaseAnswer::Planned : BroadPhaseAnswer::PlanFailed;
 }

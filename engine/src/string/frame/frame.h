@@ -23,8 +23,10 @@ inline void pass_asleep(const StringModel& model, StringState& state, std::size_
 }
 
 /// Asks the broad phase for frames that can be flown together, where that makes sense: Planned, PlanFailed or
-/// NotAsked. May put a faded string to sleep.
-BroadPhaseAnswer plan_frames(const StringModel& model, StringState& state) JAWARI_REALTIME;
+/// NotAsked. May put a faded string to sleep. What is about to act on the string besides may bring it nearer
+/// to its obstacles by reserve_m [m].
+BroadPhaseAnswer plan_frames(const StringModel& model, StringState& state,
+                             double reserve_m = 0) JAWARI_REALTIME;
 
 /// Crosses `frames` frames in free flight; the readings go to out[first], ... Precondition: plan_frames() has
 /// just answered Planned, and 1 <= frames <= planned_frames(state).
