@@ -47,7 +47,7 @@ void AudioThread::process(double* left, double* right, std::size_t frames,
     stage_.begin_block();
     obey_commands();
     take_messages(frames);
-    adapt_quality();
+    adapt_quality(foresee_notes(frames));
     for (std::size_t begin = 0; begin < frames;) {
         const std::size_t count = std::min(frames - begin, settings_.most_frames);
         render(left + begin, right + begin, begin, count);

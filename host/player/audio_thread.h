@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "instrument/limiter.h"
+#include "jawari/instrument/expected_notes.h"
 #include "jawari/instrument/render.h"
 #include "jawari/realtime.h"
 #include "player/block_clock.h"
@@ -79,7 +80,8 @@ class AudioThread {
     void end_capture() JAWARI_REALTIME;
 
     // audio_thread_quality.cpp
-    void adapt_quality() JAWARI_REALTIME;
+    std::size_t foresee_notes(std::size_t frames) JAWARI_REALTIME;
+    void adapt_quality(std::size_t changes) JAWARI_REALTIME;
 
     // audio_thread_meters.cpp
     void measure_level(const double* left, const double* right, std::size_t frames) JAWARI_REALTIME;
@@ -87,6 +89,7 @@ class AudioThread {
     void survey_strings() JAWARI_REALTIME;
     void survey_string(StagedInstrument& instrument) JAWARI_REALTIME;
     void measure(std::size_t frames, std::int64_t started_ns) JAWARI_REALTIME;
+    void tell_level() JAWARI_REALTIME;
     void notify(LiveNotice::Kind kind, double value) JAWARI_REALTIME;
 
     const LiveSettings settings_;
@@ -103,7 +106,9 @@ class AudioThread {
     std::vector<StereoFrame> captured_;  // of the part of the block
 
     Governor governor_;
-    std::size_t lowered_ = 0;  // strings below full quality
+    std::size_t lowered_ = 0;                                              // strings below full quality
+    std::array<ExpectedNote, 2 * limits::instrument_strings> expected_{};  // notes of the block
+    double note_work_ = 0;  // of these, as they begin [multiply-adds of FrameCost]
     double mean_load_ = 0;
     std::uint64_t nonfinite_resets_ = 0;
     InstrumentCounters retired_counters_;  // of instruments given back

@@ -90,10 +90,14 @@ void AudioThread::measure(std::size_t frames, std::int64_t started_ns) JAWARI_RE
     meters.mean_load.store(mean_load_, relaxed);
     raise(meters.worst_load, load);
     if (load > 1) meters.late_blocks.fetch_add(1, relaxed);
-    if (!govern(governor_, load, available_s)) return;
+    learn_note_cost(governor_, note_work_, load, available_s);
+    if (govern(governor_, load, available_s)) tell_level();
+}
+
+void AudioThread::tell_level() JAWARI_REALTIME {
     const int level = static_cast<int>(governor_.level);
-    meters.overload_level.store(level, relaxed);
-    meters.overload_changes.fetch_add(1, relaxed);
+    links_.meters.overload_level.store(level, relaxed);
+    links_.meters.overload_changes.fetch_add(1, relaxed);
     notify(LiveNotice::Kind::OverloadLevel, level);
 }
 

@@ -10,6 +10,7 @@
 #include "jawari/instrument/compile.h"
 #include "jawari/instrument/description.h"
 #include "jawari/instrument/events.h"
+#include "jawari/instrument/expected_notes.h"
 #include "jawari/instrument/model.h"
 #include "jawari/instrument/motion.h"
 #include "jawari/instrument/qualities.h"

@@ -7,6 +7,7 @@
 #include "jawari/instrument/compile.h"
 #include "jawari/instrument/qualities.h"
 #include "player/governor.h"
+#include "stage/stage.h"
 #include "support/live_stage.h"
 
 namespace jawari::host {
@@ -80,6 +81,49 @@ TEST(Governor, CanBeSwitchedOff) {
     Governor governor;
     governor.settings.enabled = false;
     EXPECT_EQ(levels(governor, 3, 1000).back(), 0);
+}
+
+constexpr NoteWork chord_work{1e6, 4e5, 1e5, 1e5, 1e5, 1e5};
+
+TEST(Governor, NotesThatDoNotFitBeginLower) {
+    Governor governor;
+    levels(governor, 0.3, 100);
+    governor.note_s = 0.4e-9;  // the chord: 0.4 of a millisecond
+    EXPECT_FALSE(foresee(governor, chord_work, 0.001));
+    EXPECT_EQ(governor.level, OverloadLevel::Full);
+    governor.note_s = 0.7e-9;  // 0.7 of it, or 0.28 one level down
+    EXPECT_TRUE(foresee(governor, chord_work, 0.001));
+    EXPECT_EQ(governor.level, OverloadLevel::ReleasedLower);
+    governor.note_s = 2e-9;  // 0.8 there, 0.2 at the next
+    EXPECT_TRUE(foresee(governor, chord_work, 0.001));
+    EXPECT_EQ(governor.level, OverloadLevel::ReleasedLowest);
+    governor.note_s = 20e-9;  // too much anywhere: further levels give nothing
+    EXPECT_FALSE(foresee(governor, chord_work, 0.001));
+    EXPECT_EQ(levels(governor, 0.1, 5000).back(), 0);  // and comes back as from any overload
+}
+
+TEST(Governor, TakesTwoLevelsAtOnceWhereOneIsTooLittle) {
+    Governor governor;
+    governor.note_s = 3e-9;
+    EXPECT_TRUE(foresee(governor, chord_work, 0.001));
+    EXPECT_EQ(governor.level, OverloadLevel::ReleasedLowest);
+    Governor off;
+    off.settings.enabled = false;
+    off.note_s = 3e-9;
+    EXPECT_FALSE(foresee(off, chord_work, 0.001));
+}
+
+TEST(Governor, LearnsWhatNotesCost) {
+    Governor governor;
+    levels(governor, 0.2, 100);
+    // A block of a millisecond with a chord of a million multiply-adds takes half of its time.
+    for (int n = 0; n < 40; ++n) learn_note_cost(governor, 1e6, 0.7, 0.001);
+    EXPECT_NEAR(governor.note_s, 0.5e-9, 1e-12);
+    const double known = governor.note_s;
+    learn_note_cost(governor, 0, 0.9, 0.001);  // no notes: nothing is learned
+    EXPECT_EQ(governor.note_s, known);
+    learn_note_cost(governor, 1e6, 100, 0.001);  // held up by the scheduler
+    EXPECT_LE(governor.note_s, 2.5 * known);
 }
 
 // ---------------------------------------------------------------------------------------------- player
@@ -198,7 +242,7 @@ TEST(LiveOverload, WithoutOverloadNotABitChanges) {
     const SharedInstrument instrument = laddered("guitar-steel");
     LiveSound sounds[2];
     for (const bool governed : {false, true}) {
-        set_load(0.6);  // much, but not too much
+        set_load(0.35);  // with a chord that takes as much again, 70 %
         LiveSettings settings = overload_settings();
         settings.overload.enabled = governed;
         LivePlayer player(settings);
@@ -212,6 +256,104 @@ TEST(LiveOverload, WithoutOverloadNotABitChanges) {
         }
     }
     EXPECT_EQ(sounds[0].left, sounds[1].left);
+}
+
+/// What the live player plays, on a stage without a governor: quality is changed by hand.
+struct Reference {
+    Reference(const SharedInstrument& instrument, const LiveSettings& live) : stage(settings_of(live)) {
+        stage.call(make_staged(instrument, stage.settings()).release());
+    }
+    ~Reference() {
+        stage.clear();
+        while (StagedInstrument* const old = stage.next_retired()) delete old;
+    }
+    Reference(const Reference&) = delete;
+    Reference& operator=(const Reference&) = delete;
+
+    static StageSettings settings_of(const LiveSettings& live) {
+        StageSettings settings;
+        settings.rate_hz = live.rate_hz;
+        settings.most_frames = live.most_frames;
+        settings.interpreter = live.interpreter;
+        return settings;
+    }
+    std::vector<double> play(const std::vector<ChannelMessage>& messages) {
+        stage.begin_block();
+        stage.take_stage();
+        for (const ChannelMessage& message : messages) stage.take(message, 0);
+        std::vector<double> left(block), right(block);
+        stage.render({left.data(), right.data(), {}}, 0, block);
+        return left;
+    }
+    void lower(std::size_t string, std::size_t level) {
+        StagedInstrument& instrument = *stage.sounding()[0];
+        change_quality(instrument.loaded->model, instrument.state, string, level);
+    }
+
+    Stage stage;
+};
+
+TEST(LiveOverload, AChordThatWouldBeLateBeginsLowerInItsOwnBlock) {
+    const SharedInstrument instrument = laddered("bass-fretted");
+    const auto key_of = [&](std::size_t s) {
+        return static_cast<std::uint8_t>(instrument->model.strings[s].stopped.front().key);
+    };
+    // Two keys again and again, while a third is held.
+    const std::vector<ChannelMessage> chord{
+        {0x80, key_of(0), 64}, {0x80, key_of(1), 64}, {0x90, key_of(0), 110}, {0x90, key_of(1), 110}};
+    set_load(0.1);
+    const LiveSettings settings = overload_settings();
+    LivePlayer player(settings);
+    MidiPort& port = *player.add_port();
+    ASSERT_TRUE(player.publish(instrument));
+    Reference full(instrument, settings);
+    Reference lower(instrument, settings);
+    std::int64_t now = 1'000'000'000;
+    const auto play_all = [&](const std::vector<ChannelMessage>& messages) {
+        LiveSound sound;
+        for (const ChannelMessage& message : messages) port.push({message, 0});
+        now = play(player, sound, now, 1);
+        return sound.left;
+    };
+    const auto quiet_blocks = [&] {
+        set_load(0.1);
+        for (int n = 0; n < 20; ++n) {
+            const std::vector<double> live = play_all({});
+            EXPECT_EQ(live, full.play({}));
+            lower.play({});
+        }
+    };
+    const std::vector<ChannelMessage> held{{0x90, key_of(2), 110}};
+    ASSERT_EQ(play_all(held), full.play(held));
+    lower.play(held);
+    quiet_blocks();
+    int late_chords = 0;
+    for (; late_chords < 20; ++late_chords) {
+        // A chord takes 1.2 of its block, but a single block is no overload by itself.
+        Reference& expected = full;
+        set_load(1.2);
+        const std::vector<double> live = play_all(chord);
+        if (player.statistics().overload_level > 0) {
+            const std::size_t level = player.statistics().overload_level == 1 ? 1 : 2;
+            for (const std::size_t s : {0U, 1U}) lower.lower(s, level);
+            EXPECT_EQ(live, lower.play(chord));  // the two strings, in this block, and not the held one
+            EXPECT_NE(live, expected.play(chord));
+            break;
+        }
+        EXPECT_EQ(live, expected.play(chord));
+        lower.play(chord);
+        quiet_blocks();
+    }
+    EXPECT_GE(late_chords, 1);  // what it costs had to be learned
+    EXPECT_LE(late_chords, 4);
+    EXPECT_EQ(player.statistics().held_notes, 3U);
+    EXPECT_EQ(player.statistics().faded_voices, 0U);
+    EXPECT_EQ(player.statistics().stolen_notes, 0U);
+    set_load(0.1);
+    LiveSound after;
+    play(player, after, now, 200);
+    EXPECT_EQ(player.statistics().overload_level, 0);  // and quality returns
+    EXPECT_EQ(player.statistics().held_notes, 3U);
 }
 
 TEST(LiveOverload, StaysSoundUnderTheAdversary) {

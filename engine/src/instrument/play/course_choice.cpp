@@ -1,5 +1,7 @@
 #include "instrument/play/course_choice.h"
 
+#include "instrument/play/control_targets.h"
+
 namespace jawari {
 namespace {
 
@@ -40,6 +42,10 @@ std::size_t course_holding(const InstrumentState& state, int channel, int key) J
         if (held.active && held.channel == channel && held.key == key) return c;
     }
     return no_course;
+}
+
+bool plays_legato(const InstrumentState& state, int channel) JAWARI_REALTIME {
+    return state.play == PlayMode::Guitar || parameter_of(state, channel, ParameterId::Legato) >= 0.5;
 }
 
 std::size_t course_to_continue(const InstrumentModel& model, const InstrumentState& state, int channel,

@@ -21,6 +21,9 @@ std::size_t choose_course(const InstrumentModel& model, const InstrumentState& s
 /// The course whose held note is this key of this channel, or no_course.
 std::size_t course_holding(const InstrumentState& state, int channel, int key) JAWARI_REALTIME;
 
+/// Whether notes of the channel continue its latest one.
+bool plays_legato(const InstrumentState& state, int channel) JAWARI_REALTIME;
+
 /// For legato: the course of the channel's latest note that is down, if it has the key; or no_course.
 std::size_t course_to_continue(const InstrumentModel& model, const InstrumentState& state, int channel,
                                int key) JAWARI_REALTIME;

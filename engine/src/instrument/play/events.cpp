@@ -83,10 +83,6 @@ void release_course(const InstrumentModel& model, InstrumentState& state, std::s
 
 // ---------------------------------------------------------------------------------------------- legato
 
-bool plays_legato(const InstrumentState& state, const ChannelState& channel) {
-    return state.play == PlayMode::Guitar || parameter_of(channel, ParameterId::Legato) >= 0.5;
-}
-
 void remember_below(CourseState& course) {
     if (course.below_count == legato_depth) {
         std::rotate(course.below.begin(), course.below.begin() + 1, course.below.end());
@@ -119,8 +115,7 @@ bool pull_off(const InstrumentModel& model, InstrumentState& state, std::size_t 
 /// `chosen`: for the note as one of a chord, or no_course.
 void note_on(const InstrumentModel& model, InstrumentState& state, const InstrumentEvent& event,
              std::size_t chosen) {
-    const ChannelState& channel = channel_of(state, event.channel);
-    bool legato = plays_legato(state, channel);
+    bool legato = plays_legato(state, event.channel);
     std::size_t course = chosen;
     if (legato && event.string < 0) course = course_to_continue(model, state, event.channel, event.key);
     if (course == no_course) course = choose_course(model, state, event);
@@ -274,7 +269,7 @@ bool is_of_chord(const InstrumentState& state, const InstrumentEvent& event) {
     switch (event.type) {
         case InstrumentEventType::NoteOn:
             return event.value > 0 && is_valid(event) &&
-                   !plays_legato(state, channel_of(state, event.channel));
+                   !plays_legato(state, event.channel);
         case InstrumentEventType::Bend:
         case InstrumentEventType::Pressure:
         case InstrumentEventType::Timbre:
