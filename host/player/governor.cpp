@@ -37,6 +37,8 @@ void step_up(Governor& governor) {
 constexpr double rise_share = 0.5;
 constexpr double fall_share = 0.1;
 constexpr double most_growth = 4;
+/// In each block with notes, the largest work that is remembered becomes that of lesser ones by this factor.
+constexpr double work_memory = 0.99;
 
 std::size_t index_of(OverloadLevel level) {
     return static_cast<std::size_t>(level);
@@ -62,10 +64,18 @@ bool foresee(Governor& governor, const NoteWork& work, double duration_s) JAWARI
 }
 
 void learn_note_cost(Governor& governor, double work, double load, double duration_s) JAWARI_REALTIME {
-    if (!(work > 0)) return;
+    // Before the first block there is no load to compare with.
+    if (!(work > 0) || governor.load == 0) return;
+    governor.most_work = std::max(work, work_memory * governor.most_work);
     const double measured_s = std::max(0.0, load - governor.load) * duration_s / work;
+    if (governor.note_s == 0) {
+        governor.note_s = measured_s;
+        return;
+    }
     const double counted_s = std::min(measured_s, most_growth * governor.note_s);
-    const double share = counted_s > governor.note_s ? rise_share : fall_share;
+    // Least squares: what else has changed in the block weighs the less, the more its notes cost.
+    const double weight = work / governor.most_work;
+    const double share = weight * weight * (counted_s > governor.note_s ? rise_share : fall_share);
     governor.note_s += share * (counted_s - governor.note_s);
 }
 

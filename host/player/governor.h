@@ -44,9 +44,8 @@ struct Governor {
     double calm_s = 0;       ///< for which the load has been low
     double return_s = 0;     ///< in force, once a level was given up
     bool came_back = false;  ///< the last change was for the better
-    /// What a multiply-add of a new note takes, by the blocks so far [s]. Before the first: a processor with
-    /// AVX2 (benchmarks/speed/adversarial.cpp).
-    double note_s = 1e-10;
+    double note_s = 0;  ///< what a multiply-add of a new note takes, by the blocks so far [s]; 0: not known
+    double most_work = 0;  ///< of the new notes of a block, lately [multiply-adds]
 };
 
 /// Before a block: takes the first level at which the load so far and the block's new notes fit, or the one

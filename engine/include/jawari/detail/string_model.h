@@ -44,7 +44,7 @@ struct CertificateShape {
     std::vector<std::size_t> group_begin;  ///< first contact of each group, and the contact count at the end
     AlignedVector<double> envelope;        ///< max over a group's contacts of |phi_k|, groups x stride
     /// What 1 N s at contact c adds to the rate of the gaps of group g at most, at the compiled tension
-    /// [1/kg], groups x contact_count.
+    /// [1/kg], contact_count x groups.
     std::vector<double> push_speed;
     /// A gap of contact c falls by at most reach[c] sqrt(H) below -b_c, at any step, while the string's
     /// energy is below H, at the compiled tension [m/J^(1/2)]. Empty if it is not known.

@@ -96,10 +96,12 @@ struct GapBounds {
                                           ///< [m]; complete_clearances()
     std::vector<double> group_odometer;   ///< integral of R since the last refresh [m]; plan_free_frames(),
                                           ///< advance_bounds()
-    std::vector<double> group_push;    ///< what the frame's impulses so far may have moved the gaps until its
-                                       ///< end [m]; charge_impulses(), near frames
-    std::vector<double> group_margin;  ///< smallest margin of the group's contacts that are not near [m];
-                                       ///< choose_near_contacts(), admit_pushed_contacts()
+    std::vector<double> group_push;  ///< what the frame's impulses so far may have moved the gaps until its
+                                     ///< end [m]; charge_impulses(), near frames
+    std::vector<double> group_step_push;  ///< scratch: the same of the present step's impulses [m];
+                                          ///< weigh_pushes()
+    std::vector<double> group_margin;     ///< smallest margin of the group's contacts that are not near [m];
+                                          ///< choose_near_contacts(), admit_pushed_contacts()
     // -- per contact
     std::vector<double> open_until;     ///< odometer reading up to which the gap is certainly open [m]; the
                                         ///< functions of gap_certificate.h, forecast.h and short_frame.h

@@ -268,8 +268,7 @@ bool is_valid(const InstrumentEvent& event) {
 bool is_of_chord(const InstrumentState& state, const InstrumentEvent& event) {
     switch (event.type) {
         case InstrumentEventType::NoteOn:
-            return event.value > 0 && is_valid(event) &&
-                   !plays_legato(state, event.channel);
+            return event.value > 0 && is_valid(event) && !plays_legato(state, event.channel);
         case InstrumentEventType::Bend:
         case InstrumentEventType::Pressure:
         case InstrumentEventType::Timbre:

@@ -10,16 +10,23 @@
 namespace jawari {
 namespace {
 
-/// What the step's impulses may move a group's gaps until the frame's end [m].
-double push_of_step(const StringModel& model, const StringState& state, std::size_t g) {
+/// group_step_push <- what the step's impulses may move each group's gaps until the frame's end [m].
+void weigh_pushes(const StringModel& model, StringState& state) {
     const StringShape& shape = *model.shape;
     const ContactState& contact = state.contact;
-    JAWARI_ASSERT(shape.certificate.push_speed.size() == group_count(model) * shape.contact_count);
-    const double* push_speed = shape.certificate.push_speed.data() + g * shape.contact_count;
-    double speed = 0;
-    for (const auto c : contact.candidates) speed += push_speed[c] * contact.impulse[c];
+    const std::size_t groups = group_count(model);
+    JAWARI_ASSERT(shape.certificate.push_speed.size() == groups * shape.contact_count);
+    double* push = state.certificate.bounds.group_step_push.data();
+    std::fill_n(push, groups, 0.0);
+    for (const auto c : contact.candidates) {
+        const double impulse = contact.impulse[c];
+        if (impulse == 0) continue;  // most candidates have none
+        const double* push_speed = shape.certificate.push_speed.data() + c * groups;
+        for (std::size_t g = 0; g < groups; ++g) push[g] += push_speed[g] * impulse;
+    }
     const double time_left = shape.step_s * static_cast<double>(state.steps_left) + lookahead(model);
-    return bound_safety * model.tuning.certificate.push_growth * speed * time_left;
+    const double safety = bound_safety * model.tuning.certificate.push_growth;
+    for (std::size_t g = 0; g < groups; ++g) push[g] = safety * push[g] * time_left;
 }
 
 /// What all impulses of a frame in contact space may have moved a group's gaps [m].
@@ -60,17 +67,18 @@ bool admit(const StringModel& model, StringState& state, const Push& push_of_gro
 
 bool admit_pushed_in_step(const StringModel& model, StringState& state) JAWARI_REALTIME {
     if (state.contact.near.size() == model.shape->contact_count) return false;
+    weigh_pushes(model, state);
+    const GapBounds& bounds = state.certificate.bounds;
     return admit(
-        model, state,
-        [&](std::size_t g) { return state.certificate.bounds.group_push[g] + push_of_step(model, state, g); },
+        model, state, [&](std::size_t g) { return bounds.group_push[g] + bounds.group_step_push[g]; },
         [&](std::size_t c) { join_step(model, state, c); });
 }
 
 void charge_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME {
     state.certificate.validity.outdated = true;
     if (state.contact.near.size() == model.shape->contact_count) return;
-    std::vector<double>& push = state.certificate.bounds.group_push;
-    for (std::size_t g = 0; g < group_count(model); ++g) push[g] += push_of_step(model, state, g);
+    GapBounds& bounds = state.certificate.bounds;
+    for (std::size_t g = 0; g < group_count(model); ++g) bounds.group_push[g] += bounds.group_step_push[g];
 }
 
 bool admit_pushed_in_frame(const StringModel& model, StringState& state) JAWARI_REALTIME {

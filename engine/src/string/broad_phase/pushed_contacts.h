@@ -13,6 +13,7 @@ namespace jawari {
 bool admit_pushed_in_step(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
 /// Of a stepped frame: charges the step's impulses to the margins of the other contacts, for the rest of it.
+/// Precondition: admit_pushed_in_step() was the last to ask about them.
 void charge_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME;
 
 /// Of a frame solved in contact space. True if its impulses may have reached contacts that are not near; they

@@ -112,22 +112,19 @@ void set_groups(StringShape& shape) {
     }
 }
 
-/// push_speed[g][c] = sum_k envelope_g kick |S_c|
+/// push_speed[c][g] = sum_k envelope_g kick |S_c|
 void set_push_speeds(StringDraft& draft) {
     StringShape& shape = *draft.shape;
     CertificateShape& certificate = shape.certificate;
     const AlignedVector<double>& kick_of_mode = draft.model.tuning.certificate.kick;
     const std::size_t groups = certificate.group_begin.size() - 1;
-    certificate.push_speed.assign(groups * shape.contact_count, 0.0);
+    certificate.push_speed.assign(shape.contact_count * groups, 0.0);
     AlignedVector<double> kick(shape.stride);
-    std::vector<double> of_groups(groups);
     for (std::size_t c = 0; c < shape.contact_count; ++c) {
         const double* row = shape.contact_rows.data() + c * shape.stride;
         for (std::size_t k = 0; k < shape.stride; ++k) kick[k] = kick_of_mode[k] * std::abs(row[k]);
         kernels::row_products(groups, shape.stride, shape.stride, certificate.envelope.data(), kick.data(),
-                              of_groups.data());
-        for (std::size_t g = 0; g < groups; ++g)
-            certificate.push_speed[g * shape.contact_count + c] = of_groups[g];
+                              certificate.push_speed.data() + c * groups);
     }
 }
 

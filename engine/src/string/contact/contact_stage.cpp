@@ -35,6 +35,33 @@ double gap_response(const StringModel& model, const ContactState& contact, std::
     return response;
 }
 
+/// select_candidates() where all contacts are rigid and the law is Signorini's, which takes all of them for
+/// candidates and asks for no more than the gap before.
+bool select_all(const StringModel& model, ContactState& contact) {
+    ContactMoment moment;
+    moment.excused = excused_depth(model, contact);
+    bool violated = false;
+    for (const auto c : contact.near) {
+        contact.candidates.push(c);
+        moment.gap_before = contact.gap_before[c];
+        contact.offset[c] = contact.gap_free[c] - target_gap(ImpactLaw::Signorini, moment);
+        violated = violated || contact.offset[c] < 0;
+    }
+    return violated;
+}
+
+/// gaps <- gaps + A_c impulse at the near contacts.
+void add_gap_responses(const ContactOperator& A, std::size_t active, ContactState& contact) {
+    const double impulse = contact.impulse[active];
+    double* const gaps = contact.gap.data();
+    if (A.node != nullptr) {
+        for (const auto c : contact.near) gaps[c] += A(active, c) * impulse;
+        return;
+    }
+    const double* const row = A.values + active * A.stride;
+    for (const auto c : contact.near) gaps[c] += row[c] * impulse;
+}
+
 /// out <- S x at the near contacts.
 void near_products(const StringModel& model, StringState& state, const AlignedVector<double>& x,
                    AlignedVector<double>& out) {
@@ -127,6 +154,7 @@ bool select_candidates(const StringModel& model, StringState& state) JAWARI_REAL
     contact.candidates.clear();
     contact.rigid.clear();
     contact.compliant.clear();
+    if (!some_comply && model.shape->law == ImpactLaw::Signorini) return select_all(model, contact);
     bool violated = false;
     for (const auto c : contact.near) {
         if (some_comply && is_compliant(model, c)) {
@@ -174,12 +202,9 @@ void solve_impulses(const StringModel& model, StringState& state) JAWARI_REALTIM
 
 void apply_impulses(const StringModel& model, StringState& state) JAWARI_REALTIME {
     const ContactState& contact = state.contact;
-    for (const auto c : contact.candidates) {
-        if (contact.impulse[c] <= 0) continue;
-        kernels::add_impulse(model.shape->stride, contact.impulse[c], model.shape->mobility.data(),
-                             model.shape->contact_rows.data() + c * model.shape->stride,
-                             state.velocity.data());
-    }
+    kernels::add_impulses(contact.candidates.data(), contact.candidates.size(), contact.impulse.data(),
+                          model.shape->stride, model.shape->stride, model.shape->mobility.data(),
+                          model.shape->contact_rows.data(), state.velocity.data());
 }
 
 void accept_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
@@ -201,17 +226,18 @@ void accept_gaps(const StringModel& model, StringState& state) JAWARI_REALTIME {
                                contact.gap.data());
     } else {
         for (const auto active : contact.candidates) {
-            const double impulse = contact.impulse[active];
-            if (impulse <= 0) continue;
-            for (const auto c : contact.near) contact.gap[c] += A(active, c) * impulse;
+            if (contact.impulse[active] <= 0) continue;
+            add_gap_responses(A, active, contact);
         }
     }
     state.counters.candidates += contact.candidates.size();
     const bool some_comply = has_compliant_contacts(model);
+    double deepest = state.counters.worst_penetration_m;
     for (const auto c : contact.near) {
         if (some_comply && is_compliant(model, c)) continue;
-        state.counters.worst_penetration_m = std::max(state.counters.worst_penetration_m, -contact.gap[c]);
+        deepest = std::max(deepest, -contact.gap[c]);
     }
+    state.counters.worst_penetration_m = deepest;
 }
 
 }  // namespace jawari

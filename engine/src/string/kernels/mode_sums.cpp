@@ -117,6 +117,49 @@ void add_impulse(std::size_t n, double scale, const double* HWY_RESTRICT mobilit
     }
 }
 
+/// Rows that share each load of v and of the mobility.
+constexpr std::size_t impulses_together = 4;
+
+template <std::size_t count>
+HWY_INLINE void add_impulses_of(std::size_t n, const double* scales, const double* const* rows,
+                                const double* HWY_RESTRICT mobility, double* HWY_RESTRICT v) {
+    const Lanes d;
+    Vec scale[count];
+    const double* row[count];
+    for (std::size_t i = 0; i < count; ++i) {
+        scale[i] = hn::Set(d, scales[i]);
+        row[i] = rows[i];
+    }
+    for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
+        const Vec moves = hn::Load(d, mobility + k);
+        Vec velocity = hn::Load(d, v + k);
+        for (std::size_t i = 0; i < count; ++i)
+            velocity = hn::MulAdd(scale[i], hn::Mul(moves, hn::Load(d, row[i] + k)), velocity);
+        hn::Store(velocity, d, v + k);
+    }
+}
+
+void add_impulses(const std::uint32_t* HWY_RESTRICT indices, std::size_t count,
+                  const double* HWY_RESTRICT impulses, std::size_t n, std::size_t stride,
+                  const double* HWY_RESTRICT mobility, const double* HWY_RESTRICT rows,
+                  double* HWY_RESTRICT v) {
+    double scales[impulses_together];
+    const double* taken[impulses_together];
+    std::size_t held = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t c = indices[i];
+        if (impulses[c] <= 0) continue;
+        scales[held] = impulses[c];
+        taken[held++] = rows + c * stride;
+        if (held < impulses_together) continue;
+        add_impulses_of<impulses_together>(n, scales, taken, mobility, v);
+        held = 0;
+    }
+    if (held == 3) add_impulses_of<3>(n, scales, taken, mobility, v);
+    if (held == 2) add_impulses_of<2>(n, scales, taken, mobility, v);
+    if (held == 1) add_impulses_of<1>(n, scales, taken, mobility, v);
+}
+
 void add_scaled(std::size_t n, double scale, const double* HWY_RESTRICT x, double* HWY_RESTRICT y) {
     const Lanes d;
     const Vec factor = hn::Set(d, scale);
@@ -208,6 +251,7 @@ HWY_EXPORT(row_products);
 HWY_EXPORT(indexed_row_products);
 HWY_EXPORT(add_rows);
 HWY_EXPORT(add_impulse);
+HWY_EXPORT(add_impulses);
 HWY_EXPORT(add_scaled);
 HWY_EXPORT(sum_rows);
 HWY_EXPORT(energy);
@@ -241,6 +285,11 @@ void add_rows(const std::uint32_t* indices, std::size_t count, const double* sca
 
 void add_impulse(std::size_t n, double scale, const double* mobility, const double* row, double* v) noexcept {
     HWY_DYNAMIC_DISPATCH(add_impulse)(n, scale, mobility, row, v);
+}
+
+void add_impulses(const std::uint32_t* indices, std::size_t count, const double* impulses, std::size_t n,
+                  std::size_t stride, const double* mobility, const double* rows, double* v) noexcept {
+    HWY_DYNAMIC_DISPATCH(add_impulses)(indices, count, impulses, n, stride, mobility, rows, v);
 }
 
 void add_scaled(std::size_t n, double scale, const double* x, double* y) noexcept {

@@ -29,6 +29,11 @@ void add_rows(const std::uint32_t* indices, std::size_t count, const double* sca
 /// v <- v + scale mobility row: what an impulse or a force at one point does to the modes
 void add_impulse(std::size_t n, double scale, const double* mobility, const double* row, double* v) noexcept;
 
+/// v <- v + sum of impulses[c] mobility row_c over the `count` rows c that `indices` names and whose impulse
+/// is not 0, one after the other: the numbers are those of add_impulse() for each
+void add_impulses(const std::uint32_t* indices, std::size_t count, const double* impulses, std::size_t n,
+                  std::size_t stride, const double* mobility, const double* rows, double* v) noexcept;
+
 /// y <- y + scale x
 void add_scaled(std::size_t n, double scale, const double* x, double* y) noexcept;
 

@@ -342,7 +342,7 @@ TEST(Bend, PushesGrowByNoMoreThanTheirFactor) {
                     push += std::abs(bent.shape->contact_rows[g * bent.shape->stride + k] *
                                      bent.tuning.certificate.kick[k] *
                                      bent.shape->contact_rows[c * bent.shape->stride + k]);
-                EXPECT_LE(push, bent.shape->certificate.push_speed[g * bent.shape->contact_count + c] *
+                EXPECT_LE(push, bent.shape->certificate.push_speed[c * bent.shape->contact_count + g] *
                                     bent.tuning.certificate.push_growth * (1 + 1e-12));
             }
         }

@@ -162,6 +162,32 @@ TEST(Kernels, AddImpulseAndAddScaled) {
     });
 }
 
+TEST(Kernels, ManyImpulsesGiveTheBitsOfOneAfterTheOther) {
+    on_each_instruction_set([] {
+        RandomValues random;
+        for (const std::size_t n : sizes) {
+            constexpr std::size_t contacts = 9;
+            const Values mobility = random(n), rows = random(contacts * n), start = random(n);
+            const std::vector<std::uint32_t> indices{8, 2, 5, 0, 7, 3, 1};
+            for (std::size_t count = 0; count <= indices.size(); ++count) {
+                Values impulses = random(contacts);
+                for (double& impulse : impulses) impulse = std::abs(impulse);
+                impulses[5] = 0;
+                Values together = start, one_by_one = start;
+                kernels::add_impulses(indices.data(), count, impulses.data(), n, n, mobility.data(),
+                                      rows.data(), together.data());
+                for (std::size_t i = 0; i < count; ++i) {
+                    const std::size_t c = indices[i];
+                    if (impulses[c] > 0)
+                        kernels::add_impulse(n, impulses[c], mobility.data(), rows.data() + c * n,
+                                             one_by_one.data());
+                }
+                EXPECT_EQ(together, one_by_one) << n << " modes, " << count << " contacts";
+            }
+        }
+    });
+}
+
 TEST(Kernels, Energy) {
     on_each_instruction_set([] {
         RandomValues random;
