@@ -5,11 +5,13 @@ Presets are rendered by jawari, recorded sets (General MIDI SoundFonts of Debian
 sets are known by figures alone (scripts/voicing/reference.json). docs/voicing.md says what the figures mean. Measurements
 are kept in a cache, so that a run that was interrupted goes on where it was.
 
-usage: voice.py PROGRAM [--preset NAME]... [--keys 40,52,64] [--page] [--fit | --gains] [--json FILE] [--cache FOLDER]
+usage: voice.py PROGRAM [--preset NAME]... [--keys 40,52,64] [--page] [--coupling | --fit [--even] | --gains] [--json FILE] [--cache FOLDER]
   --preset   these alone (a name of presets/instruments, or a preset file)
   --keys     these keys alone, instead of the usual ones of each preset
-  --page     writes the tables and the picture of docs/voicing.md (all presets, usual keys)
+  --page     writes the tables and the picture of docs/voicing.md (all presets, usual keys); with --coupling that table alone
+  --coupling what body and other strings do to notes of 3 s, instead of all else; of examples on a moving bridge too
   --fit      fits the radiation of the bodies and the levels of the strings (scripts/voicing/fit.py); scripts/make_presets.py follows
+  --even     also the gains of single modes, so that keys are equally loud; the distance to recorded sets grows
   --gains    the gains that make the phrase as loud as scripts/instruments/levels.py says
   --json     all figures
 """
@@ -29,6 +31,7 @@ import sounds  # noqa: E402
 from levels import PHRASE_LUFS  # noqa: E402
 
 PRESETS = ROOT / "presets" / "instruments"
+MOVING = [ROOT / "docs" / "examples" / "render" / "coupled-guitar.json"]
 PAGE = ROOT / "docs" / "voicing.md"
 PICTURE = ROOT / "docs" / "images" / "voicing" / "third_octaves.svg"
 
@@ -57,6 +60,15 @@ def measure(cache, program, path, keys):
     return compare.compare(cache, sounds.Preset(cache, program, path), played, description)
 
 
+def coupling_rows(cache, arguments):
+    for path in arguments.preset or [*sorted(PRESETS.glob("*.json")), *MOVING]:
+        description = json.loads(path.read_text())
+        playable = sets.playable_keys(description)
+        keys = [key for key in arguments.keys or sets.keys_of(path.stem, description) if key in playable]
+        yield compare.coupling(cache, sounds.Preset(cache, arguments.program, path), keys)
+        print(f"{path.stem}: measured", file=sys.stderr, flush=True)
+
+
 def gain_line(cache, program, path):
     description = json.loads(path.read_text())
     loudness = sounds.Preset(cache, program, path).phrase(sets.playable_keys(description))["lufs"]
@@ -69,7 +81,9 @@ def main():
     parser.add_argument("--preset", action="append", type=path_of)
     parser.add_argument("--keys", type=keys_of)
     parser.add_argument("--page", action="store_true")
+    parser.add_argument("--coupling", action="store_true")
     parser.add_argument("--fit", action="store_true")
+    parser.add_argument("--even", action="store_true")
     parser.add_argument("--gains", action="store_true")
     parser.add_argument("--json", type=pathlib.Path)
     parser.add_argument("--cache", type=pathlib.Path, default=ROOT / ".cache" / "voicing")
@@ -78,15 +92,26 @@ def main():
         parser.error("--page is of all presets and their usual keys")
     if arguments.fit and not arguments.preset:
         parser.error("--fit needs the presets to fit")
+    if arguments.even and not arguments.fit:
+        parser.error("--even goes with --fit")
     cache = sounds.Cache(arguments.cache)
     if arguments.fit:
         import fit
         for path in arguments.preset:
-            print(fit.fit(cache, arguments.program, path.stem), flush=True)
+            print(fit.fit(cache, arguments.program, path.stem, arguments.even), flush=True)
         return
     if arguments.gains:
         for path in arguments.preset or sorted(PRESETS.glob("*.json")):
             print(gain_line(cache, arguments.program, path), flush=True)
+        return
+    if arguments.coupling:
+        rows = list(coupling_rows(cache, arguments))
+        table = report.coupling_table(rows)
+        print(table)
+        if arguments.json:
+            arguments.json.write_text(json.dumps(rows, indent=1) + "\n")
+        if arguments.page:
+            PAGE.write_text(report.filled(PAGE.read_text(), {"coupling": table}))
         return
     rows = []
     for path in arguments.preset or sorted(PRESETS.glob("*.json")):

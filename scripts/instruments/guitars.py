@@ -76,7 +76,7 @@ def coupled():
     """The classical guitar on a bridge that moves: an example, no preset."""
     return {**nylon(), "name": "Classical guitar on a moving bridge",
             "comment": ["The classical guitar with the body's modes up to 2.5 kHz on the bridge: strings drive each other, open ones ring along."],
-            "bridge": {"open_strings": 1}, "masses": (body.GUITAR_KG, 0.45), "tilts": body.GUITAR_TILTS}
+            "bridge": {"open_strings": 0.9}, "masses": (body.GUITAR_KG, 0.45), "tilts": body.GUITAR_TILTS}
 
 
 def electric():

@@ -61,8 +61,48 @@ def reference_figures(facts):
     return result
 
 
+COUPLING = ["late_over_early_1-3", "late_over_early_4-8", "late_over_early_9-16", "beat_db_1-3", "beat_db_4-8", "beat_db_9-16", "scatter_percent",
+            "glide_cents", "between_db"]
+
+
+def coupling_figures(by_key):
+    """Medians over keys of notes that are held, at the usual velocity; the glide of loud ones."""
+    usual = {word: median(r[USUAL][word] for r in by_key.values()) for word in COUPLING}
+    return {**usual, "glide_cents": median(r[str(notes.LOUD)]["glide_cents"] for r in by_key.values())}
+
+
+def middle_range(values):
+    """Where all but the lowest and the highest tenth lie; None of fewer than three."""
+    values = sorted(v for v in values if v is not None)
+    if len(values) < 3:
+        return None
+    at = lambda share: values[round(share * (len(values) - 1))]  # noqa: E731
+    return at(0.1), at(0.9)
+
+
+def coupling_of_recordings(recorded, facts):
+    """Range over single recorded notes, and over the sets that are known by figures alone."""
+    words = {**{f"late_over_early_{g}": f"T2/T1_{g}" for g in properties.GROUPS}, **{f"beat_db_{g}": f"beat_{g}" for g in properties.GROUPS},
+             "glide_cents": "glide"}
+    result = {}
+    for word in COUPLING:
+        values = [note[word] for note in recorded]
+        of_facts = [row[words[word]] for row in facts if word in words and row.get(words[word]) is not None]
+        within = middle_range(values)
+        if within or of_facts:
+            result[word] = (min([*(within or ()), *of_facts]), max([*(within or ()), *of_facts]))
+    return result
+
+
 def is_of_fluid(label):
     return label == "fluid" or label.endswith("-fluid") or label.split(" ")[0].endswith("-fluid") or label in sets.KIN
+
+
+def coupling(cache, preset, keys):
+    """What the report says of notes that are held."""
+    facts = sets.reference()["sets"].get(sets.ALIKE.get(preset.name, preset.name), {}).values()
+    return {"name": preset.name, "figures": coupling_figures({key: preset.held(key) for key in keys}),
+            "real": coupling_of_recordings(sets.held_notes(cache, preset.name), facts)}
 
 
 def compare(cache, preset, keys, description):

@@ -10,7 +10,10 @@ import statistics
 import sys
 import tempfile
 
+import numpy as np
+
 import compare
+import evenness
 import properties
 import sets
 import sounds
@@ -22,6 +25,7 @@ import make_presets  # noqa: E402
 import wire  # noqa: E402
 
 ROUNDS = 6
+EVEN_ROUNDS, EVEN_STEP = 6, 0.5
 STEP = 0.7            # share of what is missing that a round adds: bands overlap
 WIDEST_DB = 60.0      # no third octave is lowered by more against the strongest
 # Instruments without a set of their own take the radiation of a kindred one.
@@ -129,6 +133,25 @@ def fit_levels(trial, found):
             levels[string["name"]] = round(levels.get(string["name"], 0.0) + lacks, 1)
 
 
+def fit_evenness(trial, found):
+    """Modes louder or softer, so that keys are equally loud."""
+    best = None
+    changed = np.zeros(len(trial.written()[1]["body"]))
+    for _ in range(EVEN_ROUNDS):
+        found["modes_db"] = [round(float(x), 1) for x in changed]
+        preset, description = trial.written()
+        keys = sets.playable_keys(description)
+        powers = preset.powers(keys)
+        spectra = np.array([powers[str(key)] for key in keys])
+        levels = 10 * np.log10(spectra.sum(axis=1))
+        steps = np.abs(np.diff(levels)).max() + 0.2 * np.ptp(levels)
+        if best is None or steps < best[0]:
+            best = steps, found["modes_db"]
+        changed = changed + EVEN_STEP * evenness.changes_db(evenness.shares(description["body"], spectra), levels, changed)
+        changed = evenness.without_colour(changed, [mode["frequency_hz"] for mode in description["body"]])
+    found["modes_db"] = best[1]
+
+
 def fit_balance(trial, found):
     """Both sides equally loud: few modes carry most of a note, and where they stand is chance."""
     found["left_over_right_db"] = 0.0
@@ -136,8 +159,8 @@ def fit_balance(trial, found):
     found["left_over_right_db"] = preset.phrase(sets.playable_keys(description))["left_over_right_db"]
 
 
-def fit(cache, program, name):
-    """Fits, writes, and returns a line that says how far it went."""
+def fit(cache, program, name, even=False):
+    """Fits, writes, and returns a line that says how far it went. `even`: also the gains of single modes, so that keys are equally loud."""
     if name in KINDRED:
         other = body.fits[KINDRED[name]]
         body.fits[name] = {key: value for key, value in other.items() if key != "string_levels_db"}
@@ -153,6 +176,9 @@ def fit(cache, program, name):
             if targets:
                 (fit_radiation if has_body else fit_coil)(trial, keys, targets, found)
             if name in EVEN:
+                fit_levels(trial, found)
+            if has_body and even:
+                fit_evenness(trial, found)
                 fit_levels(trial, found)
             if has_body:
                 fit_balance(trial, found)

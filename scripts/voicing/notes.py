@@ -14,6 +14,7 @@ VELOCITIES = (SOFT, USUAL, LOUD)
 EVEN_VELOCITY = 90
 HOLD_S, HEARD_S, APART_S = 1.5, 2.0, 2.4      # a note is held, let go and listened to, silenced, followed by the next
 SHORT_HOLD_S, SHORT_APART_S = 0.6, 0.85       # of the notes that only have a level
+LONG_HOLD_S, LONG_APART_S = 3.0, 3.4          # of the notes whose decay is followed
 ALL_SOUND_OFF = 120
 # (beat, semitones above the lowest key, beats): a bass note under a slow melody and two chords, velocity 80 to 100.
 PHRASE = [(0, 0, 2), (0, 12, 1), (1, 16, 1), (2, 19, 1), (2, 7, 2), (3, 16, 1), (4, 5, 2), (4, 12, 1), (5, 17, 1), (6, 0, 2), (6, 7, 2),
@@ -42,6 +43,16 @@ def of_key(key, **instrument):
     for i, velocity in enumerate(VELOCITIES):
         start = LEAD_S + i * APART_S
         play(result, start, key, velocity, HOLD_S, HEARD_S)
+        starts.append((velocity, start))
+    return result, starts
+
+
+def of_held(key, **instrument):
+    """One key, long, at the usual velocity and loud; and (velocity, start) of each note."""
+    result, starts = score(**instrument), []
+    for i, velocity in enumerate((USUAL, LOUD)):
+        start = LEAD_S + i * LONG_APART_S
+        play(result, start, key, velocity, LONG_HOLD_S, LONG_HOLD_S + 0.1)
         starts.append((velocity, start))
     return result, starts
 

@@ -50,6 +50,17 @@ def colour_table(rows):
     return "\n".join(lines) + "\n"
 
 
+def coupling_table(rows):
+    lines = ["| preset | late over early T60, partials 1-3 | 4-8 | 9-16 | beating, 1-3 (dB) | 4-8 | 9-16 | scatter of T60 (%) | glide, loud (cents) | between the partials (dB) |",
+             "|---|---|---|---|---|---|---|---|---|---|"]
+    words = [(f"late_over_early_{g}", 2) for g in ("1-3", "4-8", "9-16")] + [(f"beat_db_{g}", 2) for g in ("1-3", "4-8", "9-16")]
+    words += [("scatter_percent", 0), ("glide_cents", 1), ("between_db", 0)]
+    outside = lambda row: sum("**" in beside(row, *word) for word in words)  # noqa: E731
+    for row in sorted(rows, key=lambda r: (-outside(r), not r["real"], r["name"])):
+        lines.append(f"| `{row['name']}` | {' | '.join(beside(row, *word) for word in words)} |")
+    return "\n".join(lines) + "\n"
+
+
 def aimed(text, met):
     return text if met else f"**{text}**"
 

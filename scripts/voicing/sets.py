@@ -7,6 +7,8 @@ import json
 import pathlib
 import shutil
 
+import coupling
+import soundfont
 import sounds
 
 REFERENCE = pathlib.Path(__file__).resolve().parent / "reference.json"
@@ -34,6 +36,10 @@ KEYS = {"guitar-nylon": [40, 45, 50, 55, 59, 64, 69, 76], "guitar-steel": [40, 4
 NEAREST_KEYS = 2  # a spectrum of the reference stands for keys up to so many semitones away
 
 
+# Examples that are a preset's instrument once more.
+ALIKE = {"coupled-guitar": "guitar-nylon"}
+
+
 def playable_keys(preset):
     """Every key that some string has, from the preset file alone."""
     keys, courses = set(), set()
@@ -52,6 +58,7 @@ def playable_keys(preset):
 
 def keys_of(name, preset):
     playable = playable_keys(preset)
+    name = ALIKE.get(name, name)
     if name in KEYS:
         return [k for k in KEYS[name] if k in playable]
     count = min(7, len(playable))
@@ -61,6 +68,7 @@ def keys_of(name, preset):
 def recorded(cache, name):
     """The sets of a preset that are installed here, and the packages that are not."""
     there, missing = [], []
+    name = ALIKE.get(name, name)
     if name not in PROGRAMS:
         return there, missing
     for label, (package, path) in FILES.items():
@@ -70,6 +78,28 @@ def recorded(cache, name):
         else:
             missing.append(package)
     return there, missing
+
+
+SHORTEST_HEAD_S = 1.2  # of a recording that has stages
+
+
+def held_notes(cache, name):
+    """What coupling.py finds in the recordings of a preset's instrument before their loops, of each package that is installed and is no other's kin."""
+    name = ALIKE.get(name, name)
+    if name not in PROGRAMS:
+        return []
+    found = []
+    for label in (*FITTED, *HELD_OUT):
+        path = pathlib.Path(FILES[label][1])
+        if path.exists():
+            identity = sounds.digest("heads", f"{path.name} {path.stat().st_size}", PROGRAMS[name], cache.estimator)
+            found += cache.get(identity, lambda path=path: heads_of(path, *PROGRAMS[name]))
+    return found
+
+
+def heads_of(path, program, bank):
+    heads = [head for head in soundfont.SoundFont(path).heads(program, bank) if len(head[3]) >= SHORTEST_HEAD_S * head[2]]
+    return [coupling.of_held_note(samples, sounds.note_hz(root - cents / 100), rate) for root, cents, rate, samples in heads]
 
 
 def reference():

@@ -11,6 +11,8 @@ import subprocess
 import sys
 import tempfile
 
+import coupling
+import evenness
 import notes
 import properties
 
@@ -56,8 +58,16 @@ def measure_key(sound, key, starts):
             for velocity, start in starts}
 
 
+def measure_held(sound, key, starts):
+    return {str(velocity): coupling.of_held_note(passage(sound, start, notes.LONG_HOLD_S), note_hz(key), RATE_HZ) for velocity, start in starts}
+
+
 def measure_compass(sound, starts):
     return {str(key): round(properties.a_level(passage(sound, start, notes.SHORT_HOLD_S), RATE_HZ), 2) for key, start in starts}
+
+
+def measure_powers(sound, starts):
+    return {str(key): [float(f"{x:.4g}") for x in evenness.a_weighted_bins(passage(sound, start, notes.SHORT_HOLD_S), RATE_HZ)] for key, start in starts}
 
 
 def measure_colours(sound, starts):
@@ -73,7 +83,7 @@ class Cache:
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
-        self.estimator = digest(*((HERE / name).read_bytes() for name in ("properties.py", "sounds.py", "notes.py")))
+        self.estimator = digest(*((HERE / name).read_bytes() for name in ("properties.py", "coupling.py", "evenness.py", "sounds.py", "notes.py")))
 
     def get(self, key, make):
         path = self.folder / f"{key}.json"
@@ -112,9 +122,19 @@ class Instrument:
         score, starts = notes.of_key(key, **self.midi)
         return self.measured(score, lambda sound: measure_key(sound, key, starts))
 
+    def held(self, key):
+        score, starts = notes.of_held(key, **self.midi)
+        return self.measured(score, lambda sound: measure_held(sound, key, starts))
+
     def compass(self, keys):
         score, starts = notes.of_compass(keys, **self.midi)
         return self.measured(score, lambda sound: measure_compass(sound, starts))
+
+    def powers(self, keys):
+        """A-weighted spectrum of every key: which of its partials make it loud."""
+        score, starts = notes.of_compass(keys, **self.midi)
+        data = score.file_bytes()
+        return self.cache.get(digest("powers", self.identity, data, self.cache.estimator), lambda: measure_powers(self.sound(data), starts))
 
     def colours(self, keys):
         """Third octaves at the usual velocity, key -> levels: what a fit looks at."""

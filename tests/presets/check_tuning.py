@@ -35,13 +35,22 @@ def members(preset):
         by_course[course] = place + 1
         alone = {key: value for key, value in string.items() if key != "course"}
         variants.setdefault(place, []).append(alone)
-    return [{**preset, "strings": strings} for strings in variants.values()]
+    return [alone_on_bridge(preset, strings) for strings in variants.values()]
+
+
+def alone_on_bridge(preset, strings):
+    """With these strings alone, each with its own bridge point; on a bridge that moves the others are damped."""
+    if "bridge" not in preset:
+        return {**preset, "strings": strings}
+    places = [[other["name"] for other in preset["strings"]].index(string["name"]) for string in strings]
+    body = [{**mode, "shape": [mode["shape"][i] for i in places]} if "shape" in mode else mode for mode in preset["body"]]
+    return {**preset, "strings": strings, "body": body, "bridge": {**preset["bridge"], "open_strings": 0}}
 
 
 def expected_motion(preset, key):
     """Of the strings that have the key, the allocator takes the one with the lowest fret."""
     string = max((s for s, k in model.keys_of_course(preset) if k == key), key=lambda s: s["open_note"])
-    return string, model.Motion(string, key - string["open_note"])
+    return string, model.motion_of(preset, string, key - string["open_note"])
 
 
 def schedule(preset, keys):
@@ -129,14 +138,14 @@ def failures(name, rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program")
-    parser.add_argument("--preset", action="append", choices=model.NAMES)
+    parser.add_argument("--preset", action="append", choices=[*model.NAMES, *model.MOVING])
     parser.add_argument("--contacts", action="store_true")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--table", help="also write the summary as a Markdown table")
     arguments = parser.parse_args()
     problems, table = [], []
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        for name, rows in pool.map(lambda n: check_preset(arguments.program, n, arguments.contacts), arguments.preset or model.NAMES):
+        for name, rows in pool.map(lambda n: check_preset(arguments.program, n, arguments.contacts), arguments.preset or [*model.NAMES, *model.MOVING]):
             row = summary(name, rows)
             table.append("| {} | {} | {:.3f} | {:.3f} | {} | {:.1f} % | {:.2f} % |".format(*row[:5], 100 * row[5], 100 * row[6]))
             print("{:16s} {:3d} notes: worst {:.3f} cents (median {:.3f}); {} decays, worst {:.2f} % (median {:.2f} %)".format(

@@ -7,13 +7,16 @@ import json
 import math
 import pathlib
 
+import numpy as np
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 FOLDER = ROOT / "presets" / "instruments"
 NAMES = sorted(path.stem for path in FOLDER.glob("*.json"))
+MOVING = {"coupled-guitar": ROOT / "docs" / "examples" / "render" / "coupled-guitar.json"}  # an example on a moving bridge
 
 
 def load(name):
-    return json.loads((FOLDER / f"{name}.json").read_text())
+    return json.loads(MOVING.get(name, FOLDER / f"{name}.json").read_text())
 
 
 def frets_of(preset, string):
@@ -71,6 +74,82 @@ class Motion:
         (k1, s1), (k2, s2) = [(self.mode_number(p["frequency_hz"]), math.log(1000) / p["t60_s"]) for p in self.damping["points"]]
         slope = (s2 - s1) / (k2 * k2 - k1 * k1)
         return s1 + slope * (k * k - k1 * k1)
+
+
+class MotionOnBridge(Motion):
+    """The same on a bridge that moves (docs/formats/preset.md, "bridge"): partials of string and body together, the other strings still. The
+    tension is the one at which the first partial is the note; of the losses the program takes away the body's mean over a third octave."""
+
+    HIGHEST_HZ = 20000.0
+
+    def __init__(self, preset, string, fret):
+        super().__init__(string, fret)
+        moving = [mode for mode in preset["body"] if "mass_kg" in mode]
+        place = next(i for i, other in enumerate(preset["strings"]) if other["name"] == string["name"])
+        shape = np.array([mode["shape"][place] if "shape" in mode else 1.0 for mode in moving]) * string.get("level", 1.0)
+        self.strength = shape ** 2 / np.array([mode["mass_kg"] for mode in moving])
+        self.body_rate = math.log(1000) / np.array([mode["t60_s"] for mode in moving])
+        self.body_omega = 2 * math.pi * np.array([mode["frequency_hz"] for mode in moving])
+        self.note_hz, self.stiffness_share = self.first_hz, self.inharmonicity / (1 + self.inharmonicity)
+        stiffness = self.stiffness_share * (2 * self.length_m * self.first_hz) ** 2 * self.density  # E I pi^2/L^2 [N]
+        rigid = Motion(string, fret)
+        count = int(self.HIGHEST_HZ / self.first_hz)
+        self.body_mean = [self.mean_loss(2 * math.pi * rigid.partial_hz(k)) for k in range(1, count + 1)]
+        self.sigma = np.array([max(rigid.decay_per_s(k) - lost, 0.1 * rigid.decay_per_s(k)) for k, lost in enumerate(self.body_mean, 1)])
+        self.k = np.arange(1, count + 1)
+        tuned_hz = self.note_hz
+        for _ in range(80):
+            whole = (2 * self.length_m * tuned_hz) ** 2 * self.density  # T + E I pi^2/L^2 [N]
+            self.tension = whole - stiffness
+            b = stiffness / self.tension
+            self.omega = 2 * math.pi * tuned_hz * self.k * np.sqrt((1 + b * self.k ** 2) / (1 + b))
+            self.roots = {}
+            found = self.root(1).imag / (2 * math.pi)
+            if abs(found / self.note_hz - 1) < 1e-7:
+                break
+            tuned_hz *= self.note_hz / found
+
+    def receptance(self, s):
+        return (self.strength / (s * s + 2 * self.body_rate * s + self.body_omega ** 2)).sum()
+
+    def mean_loss(self, omega):
+        tension = (2 * self.length_m * self.first_hz) ** 2 * self.density * (1 - self.stiffness_share)
+        places = 1j * omega * 2.0 ** (np.linspace(-0.5, 0.5, 17) / 3)
+        return tension / self.length_m * np.mean([(s * self.receptance(s)).real for s in places])
+
+    def root(self, k):
+        """s of partial k: 1/receptance is what the string's end answers, -kappa + sum of b^2/(mu (s^2 + 2 sigma s + omega^2))."""
+        if k not in self.roots:
+            pull = 2 / self.length_m * (self.length_m / (self.k * math.pi)) ** 2 * self.density * self.omega ** 4
+            # sum over all modes of b a, in closed form but for stiffness: those above the highest stand still
+            kappa = self.tension / self.length_m + (pull / self.omega ** 2).sum()
+            own = self.k == k
+
+            def error(s):
+                others = (pull[~own] / (s * s + 2 * self.sigma[~own] * s + self.omega[~own] ** 2)).sum() - kappa
+                body = self.receptance(s)
+                at = k - 1
+                return s * s + 2 * self.sigma[at] * s + self.omega[at] ** 2 - pull[at] * body / (1 - body * others)
+
+            s = complex(-self.sigma[k - 1], self.omega[k - 1])
+            for _ in range(60):
+                slope = (error(s * (1 + 1e-7)) - error(s * (1 - 1e-7))) / (2e-7 * s)
+                change = error(s) / slope
+                s -= change * min(1.0, 0.02 * abs(s) / abs(change))
+                if abs(change) < 1e-11 * abs(s):
+                    break
+            self.roots[k] = s
+        return self.roots[k]
+
+    def partial_hz(self, k):
+        return self.root(k).imag / (2 * math.pi)
+
+    def decay_per_s(self, k):
+        return -self.root(k).real
+
+
+def motion_of(preset, string, fret):
+    return MotionOnBridge(preset, string, fret) if "bridge" in preset else Motion(string, fret)
 
 
 def strings_of_key(preset, key):
