@@ -51,8 +51,9 @@ void place_obstacles(const StringModel& model, ContactState& contact) {
 GapBounds make_gap_bounds(const StringSizes& sizes) {
     GapBounds bounds;
     for (auto* array : {&bounds.speed, &bounds.detour, &bounds.extent}) array->assign(sizes.stride, 0.0);
-    for (auto* array : {&bounds.group_speed, &bounds.group_detour, &bounds.group_clearance,
-                        &bounds.group_odometer, &bounds.group_push, &bounds.group_step_push, &bounds.group_margin}) {
+    for (auto* array :
+         {&bounds.group_speed, &bounds.group_detour, &bounds.group_clearance, &bounds.group_odometer,
+          &bounds.group_push, &bounds.group_step_push, &bounds.group_margin}) {
         array->assign(sizes.groups, 0.0);
     }
     for (auto* array : {&bounds.open_until, &bounds.margin, &bounds.frame_gap, &bounds.frame_end_gap})
