@@ -69,20 +69,20 @@ std::size_t reach_of(const StringModel& string, const double* row) {
 /// Displacements at rest with the end at 1 m, row_k/(2 potential_k), and how far they, and free motion from
 /// there, bend the string at its contacts.
 void set_rest(const StringModel& string, const double* row, StringState& state, EndRun& run) {
-    AlignedVector<double>& still = run.coefficients.still;
+    AlignedVector<double>& at_rest = run.coefficients.still;
     for (std::size_t k = 0; k < string.shape->stride; ++k)
-        still[k] = row[k] == 0 ? 0.0 : row[k] / (2 * string.tuning.potential[k]);
+        at_rest[k] = row[k] == 0 ? 0.0 : row[k] / (2 * string.tuning.potential[k]);
     run.bend = run.sway = 0;
     const CertificateTuning& bounds = string.tuning.certificate;
     const std::size_t contacts = string.shape->contact_count;
     if (contacts == 0 || bounds.extent.empty()) return;
     double sum = 0;
     for (std::size_t k = 0; k < string.shape->mode_count; ++k)
-        sum += bounds.extent[k] * std::sqrt(bounds.stiffness[k]) * std::abs(still[k]);
+        sum += bounds.extent[k] * std::sqrt(bounds.stiffness[k]) * std::abs(at_rest[k]);
     run.sway = bound_safety * std::sqrt(2 / string.shape->length_m) * sum;
     std::vector<double>& bends = state.certificate.bounds.frame_end_gap;
     kernels::row_products(contacts, string.shape->stride, string.shape->stride,
-                          string.shape->contact_rows.data(), still.data(), bends.data());
+                          string.shape->contact_rows.data(), at_rest.data(), bends.data());
     for (std::size_t c = 0; c < contacts; ++c) run.bend = std::max(run.bend, std::abs(bends[c]));
     run.bend *= bound_safety;
 }
