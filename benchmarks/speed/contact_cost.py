@@ -19,7 +19,7 @@ RATE = 96000
 OUTPUT = 24000
 MODES = 256  # or as many as contacts, if those are more
 HIGHEST_HZ = RATE / 4  # frequency of the last mode
-CASES = {1: 400000, 16: 100000, 128: 2000, 1024: 100, 4096: 8}  # contacts: steps
+CASES = {1: 400000, 16: 100000, 52: 20000, 128: 2000, 1024: 100, 4096: 8}  # contacts: steps
 OPEN_STEPS = 4  # times as many where nothing touches
 REPEATS = 2
 

@@ -1,4 +1,4 @@
-// The moving bridge: strings and body against the eigenmodes of the whole, and its energy.
+// The moving bridge: strings and body against the eigenmodes of the whole.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -16,6 +16,7 @@
 #include "jawari/instrument/render.h"
 #include "jawari/scene/energy.h"
 #include "jawari/scene/render.h"
+#include "support/moving_bridge.h"
 #include "support/small_instrument.h"
 
 namespace jawari {
@@ -262,17 +263,6 @@ TEST(MovingBridge, TheFirstPartialWithTheBodyIsTheNote) {
     }
 }
 
-double whole_energy(const InstrumentModel& model, InstrumentState& state) {
-    double sum = bridge_energy(model, state);
-    for (std::size_t s = 0; s < model.strings.size(); ++s) sum += string_energy(model, state, s);
-    return sum;
-}
-
-double work_of(const PlayerWork& work) {
-    return work.exciters_J + work.touches_J + work.bends_J + work.transfers_J + work.quality_changes_J +
-           work.noises_J + work.couplings_J;
-}
-
 /// Strings without losses on a body without losses (but for what a T60 of 20 s at 60 Hz takes).
 TEST(MovingBridge, KeepsTheEnergyOfTheWhole) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -291,80 +281,15 @@ TEST(MovingBridge, KeepsTheEnergyOfTheWhole) {
         state.bridge.ringing = true;
         double out = 0;
         render_instrument(model, state, {}, &out, 1);  // the weight begins
-        double before = whole_energy(model, state) - work_of(state.work);
+        double before = test::whole_energy(model, state) - test::work_of(state.work);
         const double start = before;
         for (int n = 0; n < 2000; ++n) {
             render_instrument(model, state, {}, &out, 1);
-            const double now = whole_energy(model, state) - work_of(state.work);
+            const double now = test::whole_energy(model, state) - test::work_of(state.work);
             ASSERT_LE(now, before + 1e-12 * start) << seed << " frame " << n;
             before = now;
         }
         EXPECT_GT(before, 0.9 * start) << seed;
-    }
-}
-
-/// Everything that players do, on strings that strike frets, threads and rattles.
-InstrumentDescription played_instrument(double body_kg) {
-    InstrumentDescription instrument = test::small_instrument();
-    for (std::size_t j = 0; j < instrument.body.size(); ++j) {
-        instrument.body[j].mass_kg = body_kg;
-        instrument.body[j].shape = {1, j == 0 ? 0.9 : -0.7, 0.8};
-    }
-    instrument.bridge = BridgeDescription{};
-    return instrument;
-}
-
-std::vector<InstrumentEvent> random_event(std::mt19937_64& random, const InstrumentModel& model) {
-    const auto chance = [&](double below) { return below * static_cast<double>(random() >> 11) * 0x1p-53; };
-    const int channel = static_cast<int>(chance(3));
-    const auto& string = model.strings[static_cast<std::size_t>(chance(3))];
-    const int key = string.stopped[static_cast<std::size_t>(chance(8))].key;
-    switch (static_cast<int>(chance(9))) {
-        case 0:
-        case 1:
-        case 2:
-            return {note_on(0, key, 0.05 + chance(0.95), channel)};
-        case 3:
-            return {note_off(0, key, chance(1), channel)};
-        case 4:
-            return {bend_channel(0, chance(8) - 4, channel)};
-        case 5:
-            return {all_notes_off(0, channel)};
-        case 6:
-            return {set_parameter(0, ParameterId::PalmMute, chance(1), channel)};
-        case 7:
-            return {set_parameter(0, ParameterId::Articulation, std::floor(chance(4)), channel)};
-        default:
-            return {set_sustain_pedal(0, chance(2) < 1, channel)};
-    }
-}
-
-/// Never more energy than what was given, for heavy bodies and for one that strings throw about.
-TEST(MovingBridge, NeverHasMoreEnergyThanItWasGiven) {
-    for (const double body_kg : {1.0, 0.05, 0.001}) {
-        const auto compiled = compile_instrument(played_instrument(body_kg), rate_hz);
-        ASSERT_TRUE(compiled.ok()) << compiled.failure().place;
-        const InstrumentModel& model = compiled.value();
-        InstrumentState state = make_instrument_state(model);
-        std::mt19937_64 random(7);
-        double largest = 0, before = 0, largest_debt = 0, worst = 0;
-        double left = 0, right = 0;
-        for (int n = 0; n < 60000; ++n) {
-            std::vector<InstrumentEvent> events;
-            if (n % 400 == 0) events = random_event(random, model);
-            render_instrument(model, state, events, {&left, &right, {}}, 1);
-            ASSERT_TRUE(std::isfinite(left + right)) << n;
-            const double energy = whole_energy(model, state);
-            largest = std::max(largest, energy);
-            largest_debt = std::max(largest_debt, std::abs(state.bridge.debt_J));
-            const double now = energy - work_of(state.work);
-            worst = std::max(worst, (now - before) / largest);
-            before = now;
-        }
-        EXPECT_GT(contact_counters(state).impulses, 1000U);
-        EXPECT_LT(worst, 1e-12) << body_kg;
-        EXPECT_LT(largest_debt, 1e-3 * largest) << body_kg;
-        EXPECT_EQ(contact_counters(state).nonfinite_resets + finished_nonfinite_resets(state), 0U);
     }
 }
 
@@ -405,13 +330,13 @@ TEST(MovingBridge, OpenAndSympatheticStringsAnswer) {
 }
 
 TEST(MovingBridge, BlocksDoNotChangeABitAndStringsAddUpToTheWhole) {
-    const auto compiled = compile_instrument(played_instrument(0.2), rate_hz);
+    const auto compiled = compile_instrument(test::played_instrument(0.2), rate_hz);
     ASSERT_TRUE(compiled.ok());
     const InstrumentModel& model = compiled.value();
     std::vector<InstrumentEvent> events;
     std::mt19937_64 random(11);
     for (std::size_t n = 0; n < 40; ++n) {
-        for (InstrumentEvent event : random_event(random, model)) {
+        for (InstrumentEvent event : test::random_event(random, model)) {
             event.frame = 301 * n;
             events.push_back(event);
         }
@@ -431,7 +356,7 @@ TEST(MovingBridge, BlocksDoNotChangeABitAndStringsAddUpToTheWhole) {
     render_instrument(model, third, events, {left.data(), right.data(), pointers}, left.size());
     EXPECT_EQ(left, whole.left);
     // Without pan, so of pickups that are in the middle; the body alone here.
-    InstrumentDescription acoustic = played_instrument(0.2);
+    InstrumentDescription acoustic = test::played_instrument(0.2);
     acoustic.pickups.clear();
     const InstrumentModel body = compile_instrument(acoustic, rate_hz).value();
     InstrumentState fourth = make_instrument_state(body);
@@ -485,7 +410,7 @@ TEST(MovingBridge, LostNumbersStayWhereTheyAre) {
         render_instrument(model, state, {}, out.data(), out.size());
         for (const double sample : out) ASSERT_TRUE(std::isfinite(sample));
         EXPECT_GT(string_energy(model, state, 0), 0);
-        EXPECT_TRUE(std::isfinite(whole_energy(model, state)));
+        EXPECT_TRUE(std::isfinite(test::whole_energy(model, state)));
         EXPECT_GE(contact_counters(state).nonfinite_resets + finished_nonfinite_resets(state), 1U);
     }
 }
