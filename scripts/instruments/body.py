@@ -139,9 +139,10 @@ CLASSICAL_GUITAR = body([(98, 15, 1.0), (187, 18, 1.3), (232, 25, 0.5), (290, 30
 STEEL_GUITAR = body([(102, 18, 1.0), (193, 22, 1.3), (234, 28, 0.5), (330, 32, 0.4), (392, 35, 0.5), (480, 35, 0.3)],
                     (520, 48, 2500, 0.024, 0.16, 3500))
 # Masses at the bridge, chosen: with the strings' levels, 0.7 to 1.9, by which each string acts on the bridge, those of the named modes make
-# their peaks of the mobility, level^2 Q/(m omega), 0.01 to 0.07 s/kg, so that no note dies at once on one; those of the plate make its
-# mean above 500 Hz level^2/(4 m df), df the modes' spacing.
-GUITAR_KG = [1.2, 0.75, 0.85, 0.8, 0.6, 0.5]
+# their peaks of the mobility, level^2 Q/(m omega), at most 0.07 s/kg, so that no note dies at once on one; those of the air and of the first
+# top plate are heavier, else the notes on them would be two, beside their pitch (wolves). Those of the plate make its mean above 500 Hz
+# level^2/(4 m df), df the modes' spacing.
+GUITAR_KG = [4, 1.5, 0.85, 0.8, 0.6, 0.5]
 GUITAR_TILTS = [0, 0.1, 0.9, 0.3, -0.5, 0.4]
 # Gourd and thin wooden face (sitar, tanpura): chosen.
 SITAR = body([(108, 12, 0.5), (196, 16, 1.0), (287, 20, 0.8), (420, 22, 0.7)], (480, 62, 2500, 0.030, 0.25, 4500))

@@ -9,7 +9,6 @@ DEEPEST_DB = -40.0      # envelopes are followed down to here below their peak
 SHORTEST_STEPS = 12     # of an envelope that has two stages
 EARLY_S, LATER_S = 0.05, (0.6, 1.0)  # pitch here relative to the mean there
 RINGING_S = 0.35        # the attack is over
-PARTIALS = range(1, 17)
 
 
 def two_stages(level_db):
@@ -34,19 +33,6 @@ def audible(envelope):
     first = int(level.argmax()) + 1
     below = np.nonzero(level[first:] < DEEPEST_DB)[0]
     return level[first:first + (int(below[0]) if len(below) else len(level))]
-
-
-def partials_of(mono, first_hz, rate_hz):
-    """Frequency of each partial, looked for beside the one before [Hz]."""
-    frequency, power = properties.power_spectrum(properties.two_channels(mono * np.hanning(len(mono))), rate_hz)
-    found, spacing, last = {}, first_hz, 0.0
-    for k in PARTIALS:
-        if last + 1.5 * spacing > min(rate_hz / 2, 16000):
-            break
-        here = properties.partial_hz(frequency, power, last + spacing, first_hz)
-        spacing, last = max(0.9 * first_hz, min(1.15 * first_hz, here - last if k > 1 else here)), here
-        found[k] = here
-    return found
 
 
 def scatter(times):
@@ -90,9 +76,8 @@ def between_db(sound, partials, first_hz, rate_hz):
 def of_held_note(sound, first_hz, rate_hz):
     """All of these of one note that is held: by group of partials `late_over_early` and `beat_db` (medians), and of all of them
     `scatter_percent`; `glide_cents`; `between_db`. None where the note is too short for it."""
-    sound = properties.two_channels(sound)
-    mono = sound[:, np.argmax((sound ** 2).sum(axis=0))]
-    partials = partials_of(mono, first_hz, rate_hz)
+    mono = properties.louder_side(sound)
+    partials = properties.partials_of(mono, first_hz, rate_hz)
     early, ratio, beat = {}, {}, {}
     for k, frequency_hz in partials.items():
         envelope = properties.partial_envelope(mono, frequency_hz, first_hz, rate_hz)

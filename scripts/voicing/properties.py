@@ -163,18 +163,28 @@ def partial_hz(frequency, power, expected_hz, spacing_hz):
     return float(frequency[near][power[near].argmax()]) if near.any() else expected_hz
 
 
-def decay_times(sound, first_hz, rate_hz):
-    """Median early T60 of the partials of each group; each partial is looked for beside the one before."""
+def louder_side(sound):
     sound = two_channels(sound)
-    mono = sound[:, np.argmax((sound ** 2).sum(axis=0))]
+    return sound[:, np.argmax((sound ** 2).sum(axis=0))]
+
+
+def partials_of(mono, first_hz, rate_hz):
+    """Frequency of each of the first sixteen partials, looked for beside the one before [Hz]."""
     frequency, power = power_spectrum(two_channels(mono * np.hanning(len(mono))), rate_hz)
-    times, spacing, last = {}, first_hz, 0.0
+    found, spacing, last = {}, first_hz, 0.0
     for k in range(1, 17):
         if last + 1.5 * spacing > min(rate_hz / 2, 16000):
             break
         here = partial_hz(frequency, power, last + spacing, first_hz)
         spacing, last = max(0.9 * first_hz, min(1.15 * first_hz, here - last if k > 1 else here)), here
-        times[k] = t60_of(partial_envelope(mono, here, first_hz, rate_hz))
+        found[k] = here
+    return found
+
+
+def decay_times(sound, first_hz, rate_hz):
+    """Median early T60 of the partials of each group."""
+    mono = louder_side(sound)
+    times = {k: t60_of(partial_envelope(mono, here, first_hz, rate_hz)) for k, here in partials_of(mono, first_hz, rate_hz).items()}
     medians = {}
     for name, partials in GROUPS.items():
         found = [times[k] for k in partials if times.get(k) is not None]

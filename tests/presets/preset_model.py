@@ -108,6 +108,8 @@ class MotionOnBridge(Motion):
             if abs(found / self.note_hz - 1) < 1e-7:
                 break
             tuned_hz *= self.note_hz / found
+        else:
+            raise ValueError(f"{string['name']}, fret {fret}: a resonance of the body keeps the first partial off its note")
 
     def receptance(self, s):
         return (self.strength / (s * s + 2 * self.body_rate * s + self.body_omega ** 2)).sum()
